@@ -4,14 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "radioslam/mission/odometry_edge.hpp"
-#include "radioslam/records/record_codec.hpp"
-
 namespace radioslam {
 namespace {
-
-constexpr std::size_t kMaxSteps = 16;  // of an amendment
-constexpr double kSame_m = 1e-4, kSame_rad = 1e-5;
 
 /// The robot with the noise that its log states: none where scans measure it.
 Robot of_log(const Robot& robot, bool follows_scans) {
@@ -22,11 +16,6 @@ Robot of_log(const Robot& robot, bool follows_scans) {
   properties.keyframes.clear();
   if (follows_scans) properties.odometry_noise = {0, 0, 0, 0, 0, 0, {}};
   return properties;
-}
-
-bool are_equal(const SE3& a, const SE3& b) {
-  const SE3::Tangent off = (a.inverse() * b).log();
-  return off.head<3>().norm() < kSame_m && off.tail<3>().norm() < kSame_rad;
 }
 
 }  // namespace
@@ -84,29 +73,6 @@ std::optional<TrackedScans> FrontEnd::finish() {
   }
   log_.finish();
   return tracked;
-}
-
-void FrontEnd::amend(const MeasuredOdometry& odometry) {
-  AmendmentRecord record;
-  const auto& said = log_.said();
-  const auto say = [&] {
-    if (!record.steps.empty()) log_.say(std::exchange(record, {}));
-  };
-  Robot robot;
-  robot.odometry = odometry.samples;
-  robot.odometry_noise = odometry.noise;
-  for (std::size_t k = 1; k < said.size(); ++k) {
-    const Stamp from = said[k - 1].stamp, to = said[k].stamp;
-    const auto a = robot.odometry.at(from), b = robot.odometry.at(to);
-    if (!a || !b || are_equal(a->inverse() * *b, said[k - 1].pose.inverse() * said[k].pose)) {
-      say();
-      continue;
-    }
-    if (record.steps.empty()) record.first = static_cast<std::uint32_t>(k);
-    record.steps.push_back({a->inverse() * *b, odometry_between<SE3>(robot, from, to).covariance});
-    if (record.steps.size() == kMaxSteps) say();
-  }
-  say();
 }
 
 std::vector<OnlinePose> FrontEnd::take_poses() { return std::exchange(poses_, {}); }

@@ -61,9 +61,8 @@ class FrontEnd {
 
   /// No more samples come. The scans' trajectory with hindsight; without scans, nothing.
   std::optional<TrackedScans> finish();
-  /// Says the motion between keyframes again, where this trajectory, in the frame of the odometry, has
-  /// another.
-  void amend(const MeasuredOdometry& odometry);
+  /// Says the motion between keyframes again (LogBuilder::amend).
+  void amend(const MeasuredOdometry& odometry) { log_.amend(odometry.samples, odometry.noise); }
 
   /// Records since the last call, encoded.
   std::vector<std::string> take_records() { return log_.take(); }
@@ -94,7 +93,6 @@ class FrontEnd {
   ScanFrontEnd scans_;
   LogBuilder log_;
   std::optional<StampedPose<SE3>> latest_, recorded_;  ///< the latter: the last row of recorded odometry
-
   std::vector<OnlinePose> poses_;
   std::vector<FrontEndEvent> late_events_;
   std::array<bool, std::variant_size_v<Sample>> is_late_said_{};

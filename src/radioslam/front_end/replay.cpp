@@ -14,21 +14,21 @@ namespace {
 
 /// One kind of a robot's recordings.
 struct Stream {
-  std::size_t size = 0;
-  std::function<Stamp(std::size_t)> stamp;
+  std::vector<Stamp> stamps;  ///< at which they are known, in order
   std::function<Sample(std::size_t)> sample;
 };
 
 /// Of those that are kept, in the order in which they are known.
 template <class Items, class Keep>
 Stream stream_of(const Items& items, const Keep& keep) {
-  std::vector<std::size_t> kept;
+  std::vector<std::pair<Stamp, std::size_t>> kept;
   for (std::size_t k = 0; k < items.size(); ++k)
-    if (keep(items[k])) kept.push_back(k);
-  const auto known = [&items](std::size_t k) { return stamp_of(Sample(items[k])); };
-  std::stable_sort(kept.begin(), kept.end(), [&](auto a, auto b) { return known(a) < known(b); });
-  return {kept.size(), [known, kept](std::size_t k) { return known(kept[k]); },
-          [&items, kept](std::size_t k) { return Sample(items[kept[k]]); }};
+    if (keep(items[k])) kept.emplace_back(stamp_of(Sample(items[k])), k);
+  std::sort(kept.begin(), kept.end());
+  std::vector<Stamp> stamps;
+  for (const auto& [stamp, k] : kept) stamps.push_back(stamp);
+  return {std::move(stamps),
+          [&items, kept = std::move(kept)](std::size_t n) { return Sample(items[kept[n].second]); }};
 }
 
 template <class Items>
@@ -42,7 +42,7 @@ std::vector<Stream> streams_of(const Mission& mission, RobotIndex self) {
   const LidarLog& scans = robot.lidar;
   return {stream_of(robot.odometry),
           stream_of(robot.inertial),
-          {scans.size(), [&scans](std::size_t k) { return scans.stamps[k]; },
+          {scans.stamps,
            [&scans](std::size_t k) {
              return Sample(ScanSample{scans.stamps[k], scans.read(k)});
            }},
@@ -84,12 +84,12 @@ ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanPa
       replayed.poses.push_back({pose, {}, seconds_between(pose.stamp, now), milliseconds_since(begin)});
   };
   std::size_t total = 0, done = 0;
-  for (const Stream& stream : streams) total += stream.size;
+  for (const Stream& stream : streams) total += stream.stamps.size();
   for (; done < total; ++done) {
     std::size_t first = streams.size();
     for (std::size_t s = 0; s < streams.size(); ++s)
-      if (next[s] < streams[s].size &&
-          (first == streams.size() || streams[s].stamp(next[s]) < streams[first].stamp(next[first])))
+      if (next[s] < streams[s].stamps.size() &&
+          (first == streams.size() || streams[s].stamps[next[s]] < streams[first].stamps[next[first]]))
         first = s;
     Sample sample = streams[first].sample(next[first]++);
     now = stamp_of(sample);

@@ -9,6 +9,14 @@
 namespace radioslam {
 namespace {
 
+constexpr std::size_t kMaxAmendedSteps = 16;  // of a record
+constexpr double kSame_m = 1e-4, kSame_rad = 1e-5;
+
+bool are_equal(const SE3& a, const SE3& b) {
+  const SE3::Tangent off = (a.inverse() * b).log();
+  return off.head<3>().norm() < kSame_m && off.tail<3>().norm() < kSame_rad;
+}
+
 FactsRecord facts_of(const Mission& mission, const Robot& robot) {
   FactsRecord facts;
   facts.dimension = mission.dimension;
@@ -24,18 +32,17 @@ FactsRecord facts_of(const Mission& mission, const Robot& robot) {
 }
 
 /// Of the motion between two keyframes, without the floor of an edge, which whoever reads the log adds.
-SE3::Jacobian covariance_between(const Robot& robot, const StampedPose<SE3>& from,
-                                 const StampedPose<SE3>& to) {
+SE3::Jacobian covariance_between(const Trajectory<SE3>& odometry, const OdometryNoise& noise,
+                                 const StampedPose<SE3>& from, const StampedPose<SE3>& to) {
   OdometryEdge<SE3> edge;
-  const Trajectory<SE3>& odometry = robot.odometry;
   StampedPose<SE3> reached = from;
   auto next = std::upper_bound(odometry.begin(), odometry.end(), from.stamp,
                                [](Stamp at, const auto& sample) { return at < sample.stamp; });
   for (; next != odometry.end() && next->stamp < to.stamp; ++next) {
-    append_sample(edge, reached, *next, robot.odometry_noise);
+    append_sample(edge, reached, *next, noise);
     reached = *next;
   }
-  append_sample(edge, reached, to, robot.odometry_noise);
+  append_sample(edge, reached, to, noise);
   return edge.covariance;
 }
 
@@ -120,6 +127,25 @@ void LogBuilder::finish() {
   if (robot_.keyframes.empty()) choice_.finish();
   is_finished_ = true;
   settle();
+}
+
+void LogBuilder::amend(const Trajectory<SE3>& odometry, const OdometryNoise& noise) {
+  AmendmentRecord record;
+  const auto say_steps = [&] {
+    if (!record.steps.empty()) say(std::exchange(record, {}));
+  };
+  for (std::size_t k = 1; k < said_.size(); ++k) {
+    const auto a = odometry.at(said_[k - 1].stamp), b = odometry.at(said_[k].stamp);
+    if (!a || !b || are_equal(a->inverse() * *b, said_[k - 1].pose.inverse() * said_[k].pose)) {
+      say_steps();
+      continue;
+    }
+    if (record.steps.empty()) record.first = static_cast<std::uint32_t>(k);
+    record.steps.push_back({a->inverse() * *b, covariance_between(odometry, noise, {said_[k - 1].stamp, *a},
+                                                                  {said_[k].stamp, *b})});
+    if (record.steps.size() == kMaxAmendedSteps) say_steps();
+  }
+  say_steps();
 }
 
 std::vector<std::string> LogBuilder::take() { return std::exchange(records_, {}); }
@@ -214,7 +240,7 @@ void LogBuilder::say_keyframes(const std::function<bool(Stamp)>& until) {
     record.stamp = here.stamp;
     record.T_before_this = k > 0 ? said_.back().pose.inverse() * here.pose : here.pose;
     if (k > 0 && !robot_.odometry_noise.steps.empty())
-      record.covariance = covariance_between(robot_, said_.back(), here);
+      record.covariance = covariance_between(robot_.odometry, robot_.odometry_noise, said_.back(), here);
     said_.push_back(here);
     say(record);
   }

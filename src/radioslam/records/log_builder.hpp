@@ -53,6 +53,9 @@ class LogBuilder {
   /// No more comes: the last sample is a keyframe.
   void finish();
 
+  /// Says the motion between keyframes again, where this odometry, in the same frame, has another.
+  void amend(const Trajectory<SE3>& odometry, const OdometryNoise& noise);
+
   /// Records since the last call, encoded; facts and anchors first.
   std::vector<std::string> take();
   /// The keyframes that were said, in the frame of the odometry.

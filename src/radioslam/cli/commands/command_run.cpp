@@ -139,9 +139,9 @@ void run_mission(const RunArguments& options) {
   refuse_replacing_inputs(options.log, options.mission);
   OutputFolder output(options.output, kRunFolder);
   MissionInput input = read_input(options.mission, options.starts);
-  for (const char* option : {"--log", "--stream"})
-    if ((option == std::string("--log") ? !options.log.empty() : options.stream) && !input.is_recorded())
-      throw InputError(option, 0, "is for missions: a factor graph or a log is no recording");
+  if ((options.stream || !options.log.empty()) && !input.is_recorded())
+    throw InputError(options.stream ? "--stream" : "--log", 0,
+                     "is for missions: a factor graph or a log is no recording");
   const bool is_checked = !options.unchecked && std::holds_alternative<std::monostate>(input.graph);
   std::vector<std::string> notes = input.notes;
   std::vector<Finding> warnings;
