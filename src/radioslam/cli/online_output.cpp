@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -17,21 +19,46 @@ std::string seconds_text(Stamp stamp) {
   return text.str();
 }
 
-Trajectory<SE3> online_trajectory(const ReplayedRobot& robot) {
+const char* name_of(Effort effort) {
+  return effort == Effort::kExtend ? "extend" : effort == Effort::kJudge ? "judge" : "align";
+}
+
+/// The robot's keyframes since it is in the frame in which it ended.
+Trajectory<SE3> online_trajectory(const StreamedTeam& team, std::size_t robot) {
   std::vector<StampedPose<SE3>> rows;
-  for (const ReplayedPose& pose : robot.poses)
-    if (pose.keyframe) rows.push_back({pose.pose.stamp, pose.pose.T_start_body});
+  std::optional<std::size_t> frame;
+  for (auto keyframe = team.keyframes.rbegin(); keyframe != team.keyframes.rend(); ++keyframe) {
+    if (keyframe->robot != robot) continue;
+    if (!frame) frame = keyframe->frame;
+    if (keyframe->frame == *frame) rows.push_back({keyframe->stamp, keyframe->T_frame_body});
+  }
+  std::reverse(rows.begin(), rows.end());
   return Trajectory<SE3>(std::move(rows));
+}
+
+/// What the team knew when the keyframe was said: time of the estimate, its effort, the frame, its error.
+std::string team_columns(const Mission& mission, const StreamedTeam& team, const OnlineKeyframe& keyframe) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3);
+  const OnlineEstimate* estimate = keyframe.estimate ? &team.estimates[*keyframe.estimate] : nullptr;
+  if (estimate) text << 1000 * estimate->seconds << ',' << name_of(estimate->effort) << ',';
+  else text << ",,";
+  text << mission.robots[keyframe.frame].id << ',';
+  if (estimate && estimate->error_m) text << *estimate->error_m;
+  return text.str();
 }
 
 }  // namespace
 
-std::vector<std::string> event_notes(const Mission& mission, const std::vector<ReplayedRobot>& robots) {
+std::vector<std::string> event_notes(const Mission& mission, const Streamed& streamed) {
+  const auto& robots = streamed.robots;
   std::vector<std::pair<Stamp, std::string>> events;
   for (std::size_t r = 0; r < robots.size(); ++r)
     for (const FrontEndEvent& event : robots[r].events)
       events.emplace_back(event.stamp, "robot " + mission.robots[r].id + ", at " + seconds_text(event.stamp) +
                                            " s: " + event.what);
+  for (const FrontEndEvent& event : streamed.team.events)
+    events.emplace_back(event.stamp, "at " + seconds_text(event.stamp) + " s: " + event.what);
   std::stable_sort(events.begin(), events.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> notes;
@@ -40,23 +67,31 @@ std::vector<std::string> event_notes(const Mission& mission, const std::vector<R
 }
 
 void write_online(const std::filesystem::path& folder, const Mission& mission,
-                  const std::vector<ReplayedRobot>& robots) {
+                  const Streamed& streamed) {
+  const auto& robots = streamed.robots;
+  std::map<std::pair<std::size_t, std::uint32_t>, const OnlineKeyframe*> keyframes;
+  for (const OnlineKeyframe& keyframe : streamed.team.keyframes)
+    keyframes[{keyframe.robot, keyframe.number}] = &keyframe;
   std::ostringstream table;
-  table << "t_s,robot,keyframe,latency_ms,delay_s\n" << std::fixed;
+  table << "t_s,robot,keyframe,latency_ms,delay_s,solve_ms,effort,component,ate_m\n" << std::fixed;
   for (std::size_t r = 0; r < robots.size(); ++r) {
     const std::string& id = mission.robots[r].id;
-    write_file(folder / (id + ".online.tum"), format_tum(online_trajectory(robots[r])));
+    write_file(folder / (id + ".online.tum"), format_tum(online_trajectory(streamed.team, r)));
     for (const ReplayedPose& pose : robots[r].poses) {
       if (!pose.keyframe && !robots[r].follows_scans) continue;
       table << std::setprecision(9) << pose.pose.stamp.seconds() << ',' << id << ',';
       if (pose.keyframe) table << *pose.keyframe;
-      table << ',' << std::setprecision(3) << pose.latency_ms << ',' << pose.delay_s << '\n';
+      table << ',' << std::setprecision(3) << pose.latency_ms << ',' << pose.delay_s << ',';
+      const auto keyframe = pose.keyframe ? keyframes.find({r, *pose.keyframe}) : keyframes.end();
+      table << (keyframe == keyframes.end() ? ",,," : team_columns(mission, streamed.team, *keyframe->second))
+            << '\n';
     }
   }
   write_file(folder / "online.csv", table.str());
 }
 
-std::string latency_text(const Mission& mission, const std::vector<ReplayedRobot>& robots) {
+std::string stream_text(const Mission& mission, const Streamed& streamed) {
+  const auto& robots = streamed.robots;
   std::ostringstream text;
   for (std::size_t r = 0; r < robots.size(); ++r) {
     if (!robots[r].follows_scans || robots[r].poses.empty()) continue;
@@ -67,6 +102,18 @@ std::string latency_text(const Mission& mission, const std::vector<ReplayedRobot
     text << mission.robots[r].id << ": " << latencies_ms.size() << " scans, 99 % of them registered within "
          << std::setprecision(3) << most << " ms\n";
   }
+  std::map<Effort, std::pair<std::size_t, double>> efforts;  // number, seconds
+  for (const OnlineEstimate& estimate : streamed.team.estimates) {
+    ++efforts[estimate.effort].first;
+    efforts[estimate.effort].second += estimate.seconds;
+  }
+  const auto of = [&](Effort effort) {
+    std::ostringstream part;
+    part << efforts[effort].first << " in " << std::setprecision(2) << efforts[effort].second << " s";
+    return part.str();
+  };
+  text << "estimates of the team: extended " << of(Effort::kExtend) << ", judged " << of(Effort::kJudge)
+       << ", aligned " << of(Effort::kAlign) << '\n';
   return text.str();
 }
 

@@ -1,5 +1,5 @@
-// What `run --stream` says beside the final estimate: each robot's poses as they were known when they were
-// added, and what its front end noticed on the way.
+// What `run --stream` says beside the final estimate: each robot's poses as the team knew them when they were
+// added, and what was noticed on the way.
 #pragma once
 
 #include <filesystem>
@@ -7,18 +7,26 @@
 #include <vector>
 
 #include "radioslam/front_end/replay.hpp"
+#include "radioslam/live/team_stream.hpp"
 #include "radioslam/mission/mission.hpp"
 
 namespace radioslam::cli {
 
-/// Of all robots, in time order.
-std::vector<std::string> event_notes(const Mission& mission, const std::vector<ReplayedRobot>& robots);
+/// A mission that was streamed.
+struct Streamed {
+  std::vector<ReplayedRobot> robots;
+  StreamedTeam team;
+};
+
+/// Of all robots and of the team, in time order.
+std::vector<std::string> event_notes(const Mission& mission, const Streamed& streamed);
 
 /// Writes `<robot>.online.tum` and online.csv (docs/formats.md, "Output").
 void write_online(const std::filesystem::path& folder, const Mission& mission,
-                  const std::vector<ReplayedRobot>& robots);
+                  const Streamed& streamed);
 
-/// "720 scans, 99 % of them registered within 31 ms", a line a robot with scans.
-std::string latency_text(const Mission& mission, const std::vector<ReplayedRobot>& robots);
+/// "720 scans, 99 % of them registered within 31 ms", a line a robot with scans; and how often
+/// the team was estimated, in what time.
+std::string stream_text(const Mission& mission, const Streamed& streamed);
 
 }  // namespace radioslam::cli

@@ -78,10 +78,15 @@ ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanPa
   const std::vector<Stream> streams = streams_of(mission, self);
   std::vector<std::size_t> next(streams.size(), 0);
   ReplayedRobot replayed;
+  replayed.log.robot = robot.id;
   Stamp now;
-  const auto take_poses = [&](Clock::time_point begin) {
+  const auto take = [&](Clock::time_point begin) {
     for (OnlinePose& pose : front_end.take_poses())
       replayed.poses.push_back({pose, {}, seconds_between(pose.stamp, now), milliseconds_since(begin)});
+    for (std::string& record : front_end.take_records()) {
+      replayed.log.records.push_back(std::move(record));
+      replayed.known.push_back(now);
+    }
   };
   std::size_t total = 0, done = 0;
   for (const Stream& stream : streams) total += stream.stamps.size();
@@ -95,22 +100,22 @@ ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanPa
     now = stamp_of(sample);
     const auto begin = Clock::now();
     front_end.add(std::move(sample));
-    take_poses(begin);
+    take(begin);
     report_progress(progress, "replay " + robot.id, static_cast<double>(done) / static_cast<double>(total));
   }
   const auto begin = Clock::now();
   replayed.tracked = front_end.finish();
   replayed.follows_scans = replayed.tracked.has_value();
-  take_poses(begin);
+  take(begin);
   number_keyframes(front_end, replayed.poses);
   if (replayed.tracked && !replayed.tracked->track.poses.empty()) {
     ScanTrajectory track;
     track.poses = replayed.tracked->track.poses;
     track.is_level = replayed.tracked->track.is_level;
     front_end.amend(odometry_from_scans(robot, track, scans.stage));
+    take(begin);
   }
   replayed.events = front_end.events();
-  replayed.log = {robot.id, front_end.take_records()};
   replayed.left_out = front_end.left_out();
   return replayed;
 }

@@ -43,6 +43,7 @@ radioslam_room(joint
     segment_odometry.cpp
     sequence_stage.cpp
     team_alignment.cpp
+    team_continuation.cpp
     uncertainty/position_uncertainty.cpp
     uncertainty/rejected_stretches.cpp
   ROOMS odometry places closure team_frame graph radio records results consistency)

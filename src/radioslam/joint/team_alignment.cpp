@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "radioslam/joint/links/link_weights.hpp"
+#include "radioslam/team_frame/alignment_continuity.hpp"
 #include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
@@ -195,10 +196,36 @@ void set_alternatives(TeamAlignment<Pose>& alignment, const std::vector<TeamHypo
   }
 }
 
+namespace {
+
+/// Alignments of the team's radio links that are near those known before.
+template <class Pose>
+RadioAlignment<Pose> refined(const TeamGraph<Pose>& team, const TeamAlignment<Pose>& before,
+                             std::size_t alternatives, const RadioAlignmentParams& params) {
+  std::vector<std::vector<Pose>> starts{team.graph.poses};
+  for (std::size_t k = 0; k < std::min(alternatives, before.alternatives.size()); ++k)
+    if (before.alternative_weights[k] >= kMinSearchedWeight) starts.push_back(before.alternatives[k]);
+  return refine_alignments(team, before.segments, starts, params);
+}
+
+template <class Pose>
+RadioAlignment<Pose> radio_alignment(const TeamGraph<Pose>& team, const RadioAlignmentParams& params,
+                                     const Progress& progress, const TeamAlignment<Pose>* before,
+                                     AlignmentSearch search) {
+  if (!before || before->segments.of_segment.empty()) return align_by_radio(team, params, progress);
+  return continued(team,
+                   search == AlignmentSearch::kAll ? align_by_radio(team, params, progress)
+                                                   : refined(team, *before, kMaxAlternatives, params),
+                   refined(team, *before, 0, params), params);
+}
+
+}  // namespace
+
 template <class Pose>
 TeamAlignment<Pose> align_by_links(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
-                                   const Progress& progress) {
-  const RadioAlignment<Pose> found = align_by_radio(joint.team, params, progress);
+                                   const Progress& progress, const TeamAlignment<Pose>* before,
+                                   AlignmentSearch search) {
+  const RadioAlignment<Pose> found = radio_alignment(joint.team, params, progress, before, search);
   TeamAlignment<Pose> alignment;
   const std::vector<int> number = set_components(joint, found.components.of_segment, alignment);
   alignment.absolute = absolute_components(joint, alignment.component);
@@ -247,7 +274,8 @@ TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const 
   template void set_alternatives(TeamAlignment<Pose>&, const std::vector<TeamHypothesis<Pose>>&);           \
   template bool has_radio_links(const JointGraph<Pose>&);                                                   \
   template TeamAlignment<Pose> align_by_links(JointGraph<Pose>&, const RadioAlignmentParams&,               \
-                                              const Progress&);                                             \
+                                              const Progress&, const TeamAlignment<Pose>*,                  \
+                                              AlignmentSearch);                                             \
   template TeamAlignment<Pose> align_robots_by_fingerprints(                                                \
       JointGraph<Pose>&, const Mission&, const KnownStarts&, const RadioMeasurements&, const LayoutParams&, \
       const FieldParams&, const Progress&);

@@ -55,11 +55,17 @@ std::optional<std::string> untied_note(const std::vector<RobotVariables>& robots
 template <class Pose>
 bool has_radio_links(const JointGraph<Pose>& joint);
 
+/// Whether all alignments are searched, or those known before refined.
+enum class AlignmentSearch { kAll, kNearKnown };
+
 /// Aligns robots by their links, assigns weights to all links, and adds paths of angles that may be direct as
-/// bearing factors.
+/// bearing factors. `before`: the alignment so far of this team, whose best one the graph's values are;
+/// another one replaces it only where it is clearly likelier (team_frame/alignment_continuity.hpp). Null:
+/// there is none, and all are searched.
 template <class Pose>
 TeamAlignment<Pose> align_by_links(JointGraph<Pose>& joint, const RadioAlignmentParams& params,
-                                   const Progress& progress);
+                                   const Progress& progress, const TeamAlignment<Pose>* before = nullptr,
+                                   AlignmentSearch search = AlignmentSearch::kAll);
 
 /// Sets the weight of the first of these hypotheses, best first, and the alternatives that are likely enough
 /// to be searched.

@@ -13,6 +13,7 @@
 #include "radioslam/joint/links/link_weights.hpp"
 #include "radioslam/joint/places/place_recognition.hpp"
 #include "radioslam/joint/position_fixes/component_placement.hpp"
+#include "radioslam/joint/team_continuation.hpp"
 #include "radioslam/joint/uncertainty/position_uncertainty.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/pipeline/run_results.hpp"
@@ -89,10 +90,16 @@ void align_by_fixes(const RunSetup& run, TeamEstimate<Pose>& team) {
 }
 
 template <class Pose>
-void align_by_links_or_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team) {
+void align_by_links_or_fingerprints(const RunSetup& run, TeamEstimate<Pose>& team,
+                                    const TeamEstimate<Pose>* before, AlignmentSearch search) {
+  std::optional<TeamAlignment<Pose>> known;
+  if (before && !before->alignment.segments.of_segment.empty()) {
+    carry_values(before->joint, team.joint);
+    known = carried_alignment(*before, team.joint);
+  }
   team.alignment =
       has_radio_links(team.joint)
-          ? align_by_links(team.joint, run.params.alignment, run.progress)
+          ? align_by_links(team.joint, run.params.alignment, run.progress, known ? &*known : nullptr, search)
           : align_robots_by_fingerprints(team.joint, run.mission, starts_of(run, team), run.radio,
                                          run.params.team_frame, run.params.field, run.progress);
   place_components_by_fixes(team.joint, team.judgement.fixes, run.params.fixes, team.alignment);
@@ -255,12 +262,13 @@ TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph,
 }
 
 template <class Pose>
-TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team) {
+TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team,
+                              const TeamEstimate<Pose>* before, AlignmentSearch search) {
   const RunParams& params = run.params;
   JointGraph<Pose>& joint = team.joint;
   StageClock& timed = run.timed;
   if (has_fixes(run.mission)) timed("position fixes", align_by_fixes<Pose>, run, team);
-  timed("team frame", align_by_links_or_fingerprints<Pose>, run, team);
+  timed("team frame", align_by_links_or_fingerprints<Pose>, run, team, before, search);
   timed("closures", close_by_fingerprints<Pose>, run, team);
   append(timed("sequences", add_sequence_closures<Pose>, joint, run.radio, params.sequence),
          team.measured.closures.sequences, team.judgement.closures.sequences);
@@ -310,60 +318,98 @@ struct RunInput {
   std::vector<VerifiedClosure> places = {};  ///< closures between robots that their scans gave before
 };
 
-/// The whole estimate.
+/// Adds what was found in another round.
+void add_places(RecognisedPlaces& places, RecognisedPlaces more) {
+  if (places.attempts.empty())
+    places = std::move(more);
+  else
+    places.append(std::move(more));
+}
+
 template <class Pose>
-RunOutput run(const RunInput<Pose>& input, const RunParams& params, const RunOptions& options,
-              const Progress& progress, StageClock& timed) {
-  const Mission& recorded = input.mission;
-  const MeasuredScans& scans = input.scans;
-  const RadioMeasurements radio = timed("radio", measure_radio, recorded, params.radio, progress);
-  const auto known = timed("radio fixes", use_known_access_points, recorded, radio, params.access_points);
-  const Mission& mission = known.mission ? *known.mission : recorded;
-  const MapWitness maps(mission, scans);
-  const RunSetup run{mission, radio, params, options, progress, timed, &maps};
-  auto built = timed("graph", build_team<Pose>, run, input.graph, scans);
-  auto aligned = align_team(run, std::move(built));
+struct JudgedPlaces {
+  JudgedTeam<Pose> judged;
+  RecognisedPlaces places;
+};
+
+/// The team aligned, with its closures judged. `places`: what was found before; closures between robots by
+/// their scans are searched in at most so many rounds, and `found` are known otherwise.
+template <class Pose>
+JudgedPlaces<Pose> judge_with_places(const RunSetup& run, const TeamEstimate<Pose>& aligned,
+                                     const MeasuredScans& scans, RecognisedPlaces places, int rounds,
+                                     const std::vector<VerifiedClosure>& found) {
   TeamDescriptors descriptors;
   if (compares_scans(run, scans))
-    descriptors =
-        timed("places", describe_places, scans, params.places.descriptors, params.scans.loops.submap_m);
-  auto places = find_places(run, aligned, scans, descriptors);
-  places.closures.insert(places.closures.end(), input.places.begin(), input.places.end());
-  auto judged = judge_closures(run, aligned, places.closures);
+    descriptors = run.timed("places", describe_places, scans, run.params.places.descriptors,
+                            run.params.scans.loops.submap_m);
+  add_places(places, find_places(run, aligned, scans, descriptors, 0, places));
+  const auto judge = [&] {
+    std::vector<VerifiedClosure> all = places.closures;
+    all.insert(all.end(), found.begin(), found.end());
+    return judge_closures(run, aligned, all);
+  };
+  auto judged = judge();
+  const auto note_judgement = [&] {
+    const auto& loops = judged.team.measured.closures.loops;
+    if (!loops.empty()) places.note_judgement(loops, judged.team.judgement.closures.loops);
+  };
   const auto may_find_more = [&] { return places.has_verified() || places.counts.has_left_out(); };
-  for (int round = 1; round < params.places.rounds && may_find_more(); ++round) {
+  for (int round = 1; round < rounds && may_find_more(); ++round) {
     auto& closures = judged.team.measured.closures;
     auto& judgements = judged.team.judgement.closures;
-    if (!closures.loops.empty()) places.note_judgement(closures.loops, judgements.loops);
+    note_judgement();
     auto more = find_places(run, judged.team, scans, descriptors, round, places);
     const bool has_more = more.has_verified(), has_tried = more.counts.registrations > 0;
     if (!has_more) append(more.closures, closures.scans, judgements.scans);
     places.append(std::move(more));
     if (has_more)
-      judged = judge_closures(run, aligned, places.closures);
+      judged = judge();
     else if (!has_tried || !places.counts.has_left_out())
       break;
   }
+  note_judgement();
+  return {std::move(judged), std::move(places)};
+}
 
+/// The whole estimate.
+template <class Pose>
+RunOutput run(const RunInput<Pose>& input, const RunParams& params, const RunOptions& options,
+              const Progress& progress, StageClock& timed) {
+  const Mission& recorded = input.mission;
+  const RadioMeasurements radio = timed("radio", measure_radio, recorded, params.radio, progress);
+  const auto known = timed("radio fixes", use_known_access_points, recorded, radio, params.access_points);
+  const Mission& mission = known.mission ? *known.mission : recorded;
+  const MapWitness maps(mission, input.scans);
+  const RunSetup run{mission, radio, params, options, progress, timed, &maps};
+  auto built = timed("graph", build_team<Pose>, run, input.graph, input.scans);
+  auto [judged, places] = judge_with_places(run, align_team(run, std::move(built)), input.scans, {},
+                                            params.places.rounds, input.places);
   RunResult result = describe_run(mission, input.measured, radio, judged.team, std::move(judged.overlaps),
                                   params, options, timed);
   count_places(result, places.counts);
   add_known_access_points(result, recorded, known.fixes, params.access_points.known);
+  places.closures.insert(places.closures.end(), input.places.begin(), input.places.end());
   return {std::move(result), std::move(judged.team.joint.team.graph), std::move(places.closures)};
 }
 
-RunOutput estimate(const LoggedMission& logged, const Mission& measured, const MeasuredScans& scans,
+/// Closures of scans that logs say: of each robot, and between robots.
+template <class Pose>
+void add_logged_closures(const LoggedMission& logged, RunInput<Pose>& input) {
+  for (const ScannedClosure& closure : logged.closures) {
+    const auto& [i, j, stamp_i, stamp_j] =
+        std::tie(closure.robot_i, closure.robot_j, closure.stamp_i, closure.stamp_j);
+    if (i == j)
+      input.scans.closures.push_back({i, stamp_i, stamp_j, loop_of(closure)});
+    else
+      input.places.push_back(closure_of_scan(i, stamp_i, j, stamp_j, loop_of(closure)));
+  }
+}
+
+RunOutput estimate_all(const LoggedMission& logged, const Mission& measured, const MeasuredScans& scans,
                    const RunParams& params, const RunOptions& options, const Progress& progress,
                    StageClock& timed) {
   const auto of_dimension = [&]<class Pose>(RunInput<Pose> input) {
-    for (const ScannedClosure& closure : logged.closures) {
-      const auto& [i, j, stamp_i, stamp_j] =
-          std::tie(closure.robot_i, closure.robot_j, closure.stamp_i, closure.stamp_j);
-      if (i == j)
-        input.scans.closures.push_back({i, stamp_i, stamp_j, loop_of(closure)});
-      else
-        input.places.push_back(closure_of_scan(i, stamp_i, j, stamp_j, loop_of(closure)));
-    }
+    add_logged_closures(logged, input);
     return run(input, params, options, progress, timed);
   };
   RunOutput output = logged.mission.dimension == 2
@@ -374,7 +420,67 @@ RunOutput estimate(const LoggedMission& logged, const Mission& measured, const M
   return output;
 }
 
+/// What was estimated before, with odometry and links since; nothing if it is of another team.
+template <class Pose>
+std::optional<TeamSolution<Pose>> extend(const RunSetup& run, const TeamSolution<Pose>& last) {
+  constexpr int kReweighings = 2;
+  auto team = extended(last.team, build_joint_graph<Pose>(run.mission, run.params.keyframe, run.params.graph));
+  if (!team) return std::nullopt;
+  const bool has_links = has_radio_links(team->joint) && !team->alignment.segments.of_segment.empty();
+  for (int round = 0; round < kReweighings; ++round) {
+    if (has_links) reweigh_radio_links(team->joint, team->alignment, run.params.alignment.mixture);
+    team->solution = optimize(team->joint.team.graph, run.params.optimizer, run.progress);
+    if (!has_links) break;
+  }
+  return TeamSolution<Pose>{*std::move(team), last.radio, last.places, Effort::kExtend};
+}
+
+template <class Pose>
+bool has_same_robots(const Mission& mission, const TeamSolution<Pose>& last) {
+  return std::equal(mission.robots.begin(), mission.robots.end(), last.team.joint.robots.begin(),
+                    last.team.joint.robots.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
+}
+
+std::size_t fingerprints_of(const Mission& mission) {
+  std::size_t count = 0;
+  for (const Robot& robot : mission.robots) count += robot.wifi.size();
+  return count;
+}
+
 }  // namespace
+
+template <class Pose>
+TeamSolution<Pose> estimate(const TeamView& view, const TeamSolution<Pose>* last, Effort effort,
+                            const RunParams& params, const RunOptions& options, const Progress& progress) {
+  constexpr double kRefitGrowth = 1.25;  // of the number of fingerprints
+  const Mission& recorded = view.logged.mission;
+  const bool continues = last && has_same_robots(recorded, *last);
+  StageClock timed;
+  RunInput<Pose> input{recorded, recorded, nullptr, view.scans};
+  add_logged_closures(view.logged, input);
+  if (continues && effort == Effort::kExtend) {
+    const RunSetup run{recorded, *last->radio, params, options, progress, timed, nullptr};
+    if (auto extended = extend(run, *last)) return *std::move(extended);
+  }
+  const bool has_grown = !continues || static_cast<double>(fingerprints_of(recorded)) >
+                                           kRefitGrowth * static_cast<double>(last->radio->nodes.size());
+  const auto radio = has_grown ? std::make_shared<const RadioMeasurements>(
+                                     measure_radio(recorded, params.radio, progress))
+                               : last->radio;
+  const auto known = use_known_access_points(recorded, *radio, params.access_points);
+  const Mission& mission = known.mission ? *known.mission : recorded;
+  const MapWitness maps(mission, input.scans);
+  const RunSetup run{mission, *radio, params, options, progress, timed, &maps};
+  const bool searches = !last || effort == Effort::kAlign;
+  auto aligned = align_team<Pose>(run, build_team<Pose>(run, nullptr, input.scans),
+                                  last ? &last->team : nullptr,
+                                  searches ? AlignmentSearch::kAll : AlignmentSearch::kNearKnown);
+  auto judged = judge_with_places(run, aligned, input.scans,
+                                  continues ? *last->places : RecognisedPlaces{}, 1, input.places);
+  return {std::move(judged.judged.team), radio,
+          std::make_shared<const RecognisedPlaces>(std::move(judged.places)),
+          searches ? Effort::kAlign : Effort::kJudge};
+}
 
 MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params,
                                       const RunOptions& options, StageClock& timed, const Progress& progress,
@@ -406,7 +512,7 @@ RunOutput run_pipeline(const Mission& recorded, const MeasuredRecordings& record
                        const RunOptions& options, StageClock timed, const Progress& progress) {
   const Mission& measured = recordings.mission ? *recordings.mission : recorded;
   const LoggedMission logged = timed("records", by_logs, measured, params.keyframe);
-  RunOutput output = estimate(logged, measured, recordings.scans, params, options, progress, timed);
+  RunOutput output = estimate_all(logged, measured, recordings.scans, params, options, progress, timed);
   add_recording_results(output.result, recordings.scans, recordings.csi);
   output.result.timings = timed.timings();
   return output;
@@ -415,7 +521,7 @@ RunOutput run_pipeline(const Mission& recorded, const MeasuredRecordings& record
 RunOutput run_pipeline(const LoggedMission& logged, const RunParams& params, const RunOptions& options,
                        const Progress& progress) {
   StageClock timed;
-  RunOutput output = estimate(logged, logged.mission, {}, params, options, progress, timed);
+  RunOutput output = estimate_all(logged, logged.mission, {}, params, options, progress, timed);
   output.result.timings = timed.timings();
   return output;
 }
@@ -433,9 +539,12 @@ RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, cons
   template RunOutput run_pipeline(const Mission&, const TeamGraph<Pose>&, const RunParams&,              \
                                   const RunOptions&, const Progress&);                                   \
   template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, const MeasuredScans&); \
-  template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>);                           \
+  template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>, const TeamEstimate<Pose>*,  \
+                                         AlignmentSearch);                                               \
   template JudgedTeam<Pose> judge_closures(const RunSetup&, TeamEstimate<Pose>,                          \
-                                           const std::vector<VerifiedClosure>&);
+                                           const std::vector<VerifiedClosure>&);                         \
+  template TeamSolution<Pose> estimate(const TeamView&, const TeamSolution<Pose>*, Effort,               \
+                                       const RunParams&, const RunOptions&, const Progress&);
 RADIOSLAM_PIPELINE(SE2)
 RADIOSLAM_PIPELINE(SE3)
 #undef RADIOSLAM_PIPELINE

@@ -9,6 +9,7 @@
 //   describe   trajectories, uncertainty, outcomes, notes
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/graph/pose_graph.hpp"
 #include "radioslam/joint/places/map_witness.hpp"
+#include "radioslam/joint/places/place_recognition.hpp"
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
@@ -86,9 +88,12 @@ template <class Pose>
 TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph, const MeasuredScans& scans);
 
 /// All robots in one frame: by position fixes, by radio links if there are any, else by fingerprints;
-/// optimized with all but the closures that are judged.
+/// optimized with all but the closures that are judged. `before`: the estimate so far, or null; alignments by
+/// links are searched, or those known before refined.
 template <class Pose>
-TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team);
+TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team,
+                              const TeamEstimate<Pose>* before = nullptr,
+                              AlignmentSearch search = AlignmentSearch::kAll);
 
 template <class Pose>
 struct JudgedTeam {
@@ -101,5 +106,35 @@ struct JudgedTeam {
 template <class Pose>
 JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
                                 const std::vector<VerifiedClosure>& found = {});
+
+/// How much of an estimate is made anew. Each does all of what those before it do.
+enum class Effort {
+  kExtend,  ///< odometry and links since, at the alignment and with the closures found before
+  kJudge,   ///< closures, biases, fixes, fingerprints; alignments by links near those known
+  kAlign,   ///< all alignments are searched
+};
+
+/// What is known of a team at one time.
+struct TeamView {
+  const LoggedMission& logged;
+  const MeasuredScans& scans;  ///< of its keyframes so far, with the closures of each robot
+};
+
+/// An estimate of the team from what is known at one time, and what the next one starts from.
+template <class Pose>
+struct TeamSolution {
+  TeamEstimate<Pose> team;
+  std::shared_ptr<const RadioMeasurements> radio;
+  std::shared_ptr<const RecognisedPlaces> places;
+  Effort effort = Effort::kAlign;  ///< that it took
+};
+
+/// Estimates the team from the view, and from what was estimated of the same team when less was known; null:
+/// nothing. More effort than asked for where the last estimate is of other robots. Deterministic, and for any
+/// number of threads the same.
+template <class Pose>
+TeamSolution<Pose> estimate(const TeamView& view, const TeamSolution<Pose>* last, Effort effort,
+                            const RunParams& params, const RunOptions& options = {},
+                            const Progress& progress = {});
 
 }  // namespace radioslam

@@ -60,6 +60,24 @@ void weigh(std::vector<TeamHypothesis<Pose>>& hypotheses, double evidence_temper
   for (auto& h : hypotheses) h.weight /= sum;
 }
 
+/// Those that differ, weighed.
+template <class Pose>
+RadioAlignment<Pose> ranked(const TeamGraph<Pose>& team, const TeamComponents& components,
+                            std::vector<TeamHypothesis<Pose>> hypotheses,
+                            const RadioAlignmentParams& params) {
+  RadioAlignment<Pose> result{components, {}};
+  BeamParams all = params.beam;
+  all.beam = static_cast<int>(hypotheses.size());
+  result.hypotheses =
+      different_teams<Pose>(std::move(hypotheses), all, [&](const TeamHypothesis<Pose>& found) {
+        const TeamValues<Pose> values{found.poses, found.points, found.drifts, found.log_evidence};
+        return position_sigmas_m(
+            partial_mixture(connected_team(team, components), components, values, params.mixture));
+      });
+  weigh(result.hypotheses, params.beam.evidence_temperature);
+  return result;
+}
+
 }  // namespace
 
 template <class Pose>
@@ -87,22 +105,24 @@ RadioAlignment<Pose> align_by_radio(const TeamGraph<Pose>& team, const RadioAlig
   CompressedTeam<Pose> compressed = compress(thin_links(team, params.grid));
   TeamBeamSearch<Pose> search(compressed.team, params, progress);
   search.run();
-  RadioAlignment<Pose> result;
-  result.components = search.components();
   std::vector<TeamHypothesis<Pose>> hypotheses;
   for (const TeamValues<Pose>& kept : search.beam())
-    hypotheses.push_back(hypothesis(team, compressed, result.components, kept, params));
+    hypotheses.push_back(hypothesis(team, compressed, search.components(), kept, params));
   // The full graph may bring together what the search took for different teams.
-  BeamParams all = params.beam;
-  all.beam = static_cast<int>(hypotheses.size());
-  result.hypotheses =
-      different_teams<Pose>(std::move(hypotheses), all, [&](const TeamHypothesis<Pose>& found) {
-        const TeamValues<Pose> values{found.poses, found.points, found.drifts, found.log_evidence};
-        return position_sigmas_m(partial_mixture(connected_team(team, result.components), result.components,
-                                                 values, params.mixture));
-      });
-  weigh(result.hypotheses, params.beam.evidence_temperature);
-  return result;
+  return ranked(team, search.components(), std::move(hypotheses), params);
+}
+
+template <class Pose>
+RadioAlignment<Pose> refine_alignments(const TeamGraph<Pose>& team, const TeamComponents& components,
+                                       const std::vector<std::vector<Pose>>& starts,
+                                       const RadioAlignmentParams& params) {
+  std::vector<TeamHypothesis<Pose>> hypotheses;
+  TeamGraph<Pose> at = team;
+  for (const std::vector<Pose>& poses : starts) {
+    at.graph.poses = poses;
+    hypotheses.push_back(refine_alignment(at, components, params));
+  }
+  return ranked(team, components, std::move(hypotheses), params);
 }
 
 template TeamHypothesis<SE2> refine_alignment(const TeamGraph<SE2>&, const TeamComponents&,
@@ -111,6 +131,12 @@ template TeamHypothesis<SE3> refine_alignment(const TeamGraph<SE3>&, const TeamC
                                               const RadioAlignmentParams&);
 template TeamHypothesis<SE2> weigh_links(const TeamGraph<SE2>&, const TeamComponents&, const MixtureParams&);
 template TeamHypothesis<SE3> weigh_links(const TeamGraph<SE3>&, const TeamComponents&, const MixtureParams&);
+template RadioAlignment<SE2> refine_alignments(const TeamGraph<SE2>&, const TeamComponents&,
+                                               const std::vector<std::vector<SE2>>&,
+                                               const RadioAlignmentParams&);
+template RadioAlignment<SE3> refine_alignments(const TeamGraph<SE3>&, const TeamComponents&,
+                                               const std::vector<std::vector<SE3>>&,
+                                               const RadioAlignmentParams&);
 template RadioAlignment<SE2> align_by_radio(const TeamGraph<SE2>&, const RadioAlignmentParams&,
                                             const Progress&);
 template RadioAlignment<SE3> align_by_radio(const TeamGraph<SE3>&, const RadioAlignmentParams&,

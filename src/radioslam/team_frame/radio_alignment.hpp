@@ -48,6 +48,13 @@ template <class Pose>
 TeamHypothesis<Pose> refine_alignment(const TeamGraph<Pose>& team, const TeamComponents& components,
                                       const RadioAlignmentParams& params);
 
+/// The alignments nearest to these values of all poses, in the frames of `components`: those of the team as it
+/// was known before, say. Alike ones are one.
+template <class Pose>
+RadioAlignment<Pose> refine_alignments(const TeamGraph<Pose>& team, const TeamComponents& components,
+                                       const std::vector<std::vector<Pose>>& starts,
+                                       const RadioAlignmentParams& params);
+
 /// The team's values as they are, with the weight of every range and path there; the evidence is the log
 /// likelihood.
 template <class Pose>

@@ -1,5 +1,6 @@
 radioslam_room(team_frame
   SOURCES
+    alignment_continuity.cpp
     alignment_grid.cpp
     beam_search/beam_selection.cpp
     beam_search/local_placement.cpp

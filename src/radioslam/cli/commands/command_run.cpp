@@ -29,6 +29,7 @@
 #include "radioslam/io/run/metrics_json.hpp"
 #include "radioslam/io/run/run_folder.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/live/team_stream.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
 #include "radioslam/report/report.hpp"
 #include "radioslam/results/result_notes.hpp"
@@ -45,6 +46,7 @@ struct RunArguments {
   std::optional<std::size_t> max_verifications;
   bool unchecked = false;
   bool stream = false;
+  StreamParams streaming;
   bool json = false;
 };
 
@@ -112,11 +114,19 @@ MissionInput for_evaluation(MissionInput& input) {
 }
 
 /// Streams the recordings, if asked to; else nothing.
-std::vector<ReplayedRobot> stream(const Mission& mission, const RunParams& params,
-                                  const RunArguments& arguments) {
-  ProgressLine line;
+Streamed stream(const Mission& mission, const RunParams& params, const Truth& truth,
+                const RunArguments& arguments) {
   if (!arguments.stream) return {};
-  return replay(mission, params.scans, params.keyframe, line.progress());
+  ProgressLine line;
+  Streamed streamed{replay(mission, params.scans, params.keyframe, line.progress()), {}};
+  const auto error_of = [&](const std::vector<EstimatedTrajectory>& team) -> std::optional<double> {
+    if (truth.empty()) return std::nullopt;
+    const auto ate = evaluate_trajectories(team, truth, mission.dimension).ate;
+    return ate ? std::optional(ate->rmse_m) : std::nullopt;
+  };
+  streamed.team =
+      stream_team(mission, streamed.robots, params, arguments.streaming, error_of, line.progress());
+  return streamed;
 }
 
 RunOutput estimate(MissionInput input, const RunParams& params, const RunArguments& arguments,
@@ -148,9 +158,9 @@ void run_mission(const RunArguments& options) {
   if (is_checked) warnings = warnings_about(input.mission, input.truth, options.mission.front());
   const MissionInput given = for_evaluation(input);
   const auto scanned = scans_of(input.mission);
-  std::vector<ReplayedRobot> streamed = stream(input.mission, params, options);
+  Streamed streamed = stream(input.mission, params, given.truth, options);
   append(notes, event_notes(given.mission, streamed));
-  RunOutput run = estimate(std::move(input), params, options, streamed);
+  RunOutput run = estimate(std::move(input), params, options, streamed.robots);
   add_maps(run.result, scanned, params, ProgressLine().progress(), output.path());
   const Agreement agreement = evaluate(run.result, given);
   append(notes, finding_notes(warnings, run.result));
@@ -165,7 +175,7 @@ void run_mission(const RunArguments& options) {
   if (options.json) {
     std::cout << summary_json(run.result, documents.metrics).dump(2) << '\n';
   } else {
-    std::cout << latency_text(given.mission, streamed);
+    if (options.stream) std::cout << stream_text(given.mission, streamed);
     print_run(run.result, agreement.metrics, options.output);
   }
 }
@@ -192,8 +202,15 @@ void add_run(CLI::App& program) {
                       "and estimate from that alone: scans of different robots are not compared");
   command->add_flag(
       "--stream", options->stream,
-      "Feed the recordings to the robots' front ends sample by sample, in time order, and write "
-      "<robot>.online.tum (keyframes as known when they were added) and online.csv as well");
+      "Feed the recordings to the robots' front ends sample by sample, in time order, estimate the team as "
+      "more becomes known, and write <robot>.online.tum (keyframes where the team knew them when they were "
+      "added) and online.csv as well");
+  command
+      ->add_option("--work-share", options->streaming.work_share,
+                   "With --stream: share of one core's time, at its nominal cost, that may go into extending "
+                   "the team's estimate (default: 0.02)")
+      ->check(CLI::Range(1e-4, 1.0))
+      ->type_name("P");
   command->add_flag(
       "--unchecked", options->unchecked,
       "Run without the checks of `radioslam doctor`, which refuse missions with certain faults");

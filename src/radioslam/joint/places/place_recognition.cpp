@@ -87,7 +87,7 @@ void RecognisedPlaces::note_judgement(const std::vector<Closure>& judged,
   for (std::size_t k = 0; k < judged.size(); ++k)
     if (judged[k].kind == ClosureKind::kLidar && judgements[k].status == ClosureStatus::kAccepted)
       accepted.insert(key(judged[k]));
-  for (std::size_t k = 0; k < closures.size(); ++k)
+  for (std::size_t k = 0; k < attempts.size(); ++k)
     attempts[k].holds = accepted.contains(key(closures[k].closure));
 }
 

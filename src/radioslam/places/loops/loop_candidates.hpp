@@ -28,11 +28,18 @@ struct LoopCandidate {
   UncertainPose<SE3> T_i_j;
 };
 
+/// Pairs of keyframes that were tried, with the standard deviation of their relative position then; 0: never
+/// again.
+using TriedPairs = std::map<std::pair<std::size_t, std::size_t>, double>;
+
 class LoopCandidates {
  public:
-  /// Keeps a reference to `keyframes`, which must outlive it.
-  LoopCandidates(const ScanKeyframes& keyframes, const ScanLoopParams& params)
-      : keyframes_(keyframes), params_(params), path_m_(path_lengths(keyframes)) {}
+  /// Keeps a reference to `keyframes`, which must outlive it. `tried`: of the same keyframes before.
+  LoopCandidates(const ScanKeyframes& keyframes, const ScanLoopParams& params, TriedPairs tried = {})
+      : keyframes_(keyframes),
+        params_(params),
+        path_m_(path_lengths(keyframes)),
+        tried_(std::move(tried)) {}
 
   /// By this estimate of the keyframes' poses. Pairs that were candidates before are left out unless they
   /// were doubtful and are predicted much better now.
@@ -43,6 +50,7 @@ class LoopCandidates {
   /// What came of a candidate.
   void note(const ScanLoop& tried);
   const std::vector<double>& path_m() const { return path_m_; }
+  const TriedPairs& tried() const { return tried_; }
 
  private:
   double radius_of(std::size_t k) const {
@@ -66,8 +74,7 @@ class LoopCandidates {
   mutable std::map<std::size_t, std::shared_ptr<const std::vector<double>>>
       sigmas_;                         ///< of the last asked for
   std::vector<std::int32_t> part_of_;  ///< per keyframe, the part of the trajectory that holds together
-  /// Standard deviation of the relative position when they were tried; 0: never again.
-  std::map<std::pair<std::size_t, std::size_t>, double> tried_;
+  TriedPairs tried_;
 };
 
 }  // namespace radioslam

@@ -9,7 +9,6 @@
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/graph/graduated.hpp"
 #include "radioslam/places/keyframe_contexts.hpp"
-#include "radioslam/places/loops/loop_candidates.hpp"
 #include "radioslam/places/loops/loop_verification.hpp"
 
 namespace radioslam {
@@ -88,16 +87,22 @@ void optimize_and_prune(PoseGraph<SE3>& graph, std::size_t steps, std::vector<Sc
 }  // namespace
 
 ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch& search,
-                           const Progress& progress) {
+                           const Progress& progress, const ScanLoops* before) {
   const ScanLoopParams& params = search.loops;
   if (!params.enabled || keyframes.poses.size() < 2) return {{}, keyframes.poses};
   PoseGraph<SE3> graph = odometry_graph(keyframes);
   const std::size_t steps = graph.relative_poses.size();
-  LoopCandidates candidates(keyframes, params);
+  LoopCandidates candidates(keyframes, params, before ? before->tried : TriedPairs());
   const LoopVerification verification(params, {.target_m = params.submap_m, .storeys = search.storeys},
                                       search.map, search.pose, search.registration);
   std::optional<ScanContextIndex> index;
   ScanLoops result;
+  if (before && !before->loops.empty()) {
+    result.loops = before->loops;
+    for (ScanLoop& loop : result.loops)
+      if (loop.status == LoopStatus::kRejectedByGraph) loop.status = LoopStatus::kAccepted;
+    optimize_and_prune(graph, steps, result.loops, progress);
+  }
   for (int round = 0; round < params.rounds; ++round) {
     const std::vector<LoopCandidate> found = candidates.find(graph);
     if (!index && std::any_of(found.begin(), found.end(), [&](const LoopCandidate& candidate) {
@@ -116,6 +121,7 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch&
     optimize_and_prune(graph, steps, result.loops, progress);
   }
   result.poses = std::move(graph.poses);
+  result.tried = candidates.tried();
   return result;
 }
 

@@ -17,6 +17,7 @@
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/lidar/local_map.hpp"
 #include "radioslam/lidar/pose_search.hpp"
+#include "radioslam/places/loops/loop_candidates.hpp"
 #include "radioslam/places/loops/scan_loop.hpp"
 #include "radioslam/places/scan_context_index.hpp"
 
@@ -25,6 +26,7 @@ namespace radioslam {
 struct ScanLoops {
   std::vector<ScanLoop> loops;  ///< all candidates that were tried
   std::vector<SE3> poses;       ///< of the keyframes, optimized with the accepted closures
+  TriedPairs tried = {};
 };
 
 /// How loops are searched. The descriptors' range, where it is 0, is chosen from the robot's scans.
@@ -37,7 +39,9 @@ struct ScanLoopSearch {
   Storeys storeys = Storeys::kSeveral;  ///< that the robot may change between
 };
 
+/// `before`: the loops of the first of these keyframes, when the robot had no more; what was tried then is
+/// tried again only where it is predicted much better now, and what contradicted the others may hold. Null: there are none.
 ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch& search,
-                           const Progress& progress = {});
+                           const Progress& progress = {}, const ScanLoops* before = nullptr);
 
 }  // namespace radioslam

@@ -1,0 +1,41 @@
+// What a robot's scans say up to a time: its keyframes with their clouds, in the odometry as it was known, and
+// the loops found among them so far.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radioslam/front_end/replay.hpp"
+#include "radioslam/odometry/scan_stage.hpp"
+#include "radioslam/places/loops/scan_loops.hpp"
+#include "radioslam/records/record.hpp"
+
+namespace radioslam {
+
+/// A robot's keyframes as its log says them.
+struct LoggedKeyframes {
+  std::vector<StampedPose<SE3>> poses;           ///< T_start_body
+  std::vector<SE3::Jacobian> step_covariances;  ///< to each from the one before; of the first one, none
+
+  void add(const KeyframeRecord& keyframe);
+};
+
+class ScansSoFar {
+ public:
+  /// Of a robot that has been replayed; without scans, it has none.
+  explicit ScansSoFar(const ReplayedRobot& robot);
+
+  /// Whether there are scans among these keyframes.
+  bool has_any(const LoggedKeyframes& known) const;
+  /// The scans among these keyframes; searches loops of those that came since the last call.
+  ScanOdometry update(const LoggedKeyframes& known, const ScanLoopSearch& search, const Progress& progress);
+  /// As found by the last update.
+  const ScanLoops& loops() const { return loops_; }
+
+ private:
+  std::vector<Stamp> stamps_;
+  ScanKeyframes all_;  ///< their poses are those of hindsight, and not used
+  ScanLoops loops_;
+};
+
+}  // namespace radioslam

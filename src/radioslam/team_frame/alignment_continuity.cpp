@@ -1,0 +1,77 @@
+#include "radioslam/team_frame/alignment_continuity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace radioslam {
+namespace {
+
+constexpr double kClearlyLikelier = 20;
+constexpr double kTurn_rad = 0.02;  // between alignments that are the same
+
+template <class Pose>
+double evidence_within(const TeamGraph<Pose>& team, const TeamHypothesis<Pose>& hypothesis,
+                       const TeamComponents& components, const RadioAlignmentParams& params) {
+  TeamGraph<Pose> at = team;
+  at.graph.poses = hypothesis.poses;
+  return refine_alignment(at, components, params).log_evidence;
+}
+
+}  // namespace
+
+template <class Pose>
+bool agree(const std::vector<Pose>& a, const std::vector<Pose>& b,
+           const std::vector<TrajectorySegment>& segments, const std::vector<int>& frame_of_segment,
+           double tolerance_m) {
+  std::map<int, std::size_t> longest;  // by frame
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const auto [known, is_new] = longest.emplace(frame_of_segment[s], s);
+    if (!is_new && segments[s].pose_count > segments[known->second].pose_count) known->second = s;
+  }
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const TrajectorySegment& segment = segments[s];
+    const TrajectorySegment& reference = segments[longest.at(frame_of_segment[s])];
+    if (frame_of_segment[s] < 0 || &segment == &reference) continue;
+    const std::size_t middle = reference.first_pose + reference.pose_count / 2;
+    const Pose T_a_b = a[middle] * b[middle].inverse();
+    for (std::size_t k = segment.first_pose; k < segment.first_pose + segment.pose_count; ++k) {
+      const double away_m = (a[k].translation() - a[middle].translation()).norm();
+      const double off_m = ((T_a_b * b[k]).translation() - a[k].translation()).norm();
+      if (off_m > tolerance_m + kTurn_rad * away_m) return false;
+    }
+  }
+  return true;
+}
+
+template <class Pose>
+RadioAlignment<Pose> continued(const TeamGraph<Pose>& team, RadioAlignment<Pose> found,
+                               const RadioAlignment<Pose>& before, const RadioAlignmentParams& params) {
+  constexpr double kSame_m = 1;
+  const std::vector<int>& frames = before.components.of_segment;
+  const TeamHypothesis<Pose>& kept = before.hypotheses.front();
+  const auto agrees = [&](const TeamHypothesis<Pose>& other) {
+    return agree(kept.poses, other.poses, team.segments, frames, kSame_m);
+  };
+  auto& hypotheses = found.hypotheses;
+  if (agrees(hypotheses.front())) return found;
+  const double better = evidence_within(team, hypotheses.front(), before.components, params) -
+                        evidence_within(team, kept, before.components, params);
+  if (better > params.beam.evidence_temperature * std::log(kClearlyLikelier)) return found;
+  const auto agreeing = std::find_if(hypotheses.begin(), hypotheses.end(), agrees);
+  if (agreeing == hypotheses.end()) return before;
+  std::rotate(hypotheses.begin(), agreeing, agreeing + 1);
+  return found;
+}
+
+#define RADIOSLAM_ALIGNMENT_CONTINUITY(Pose)                                                              \
+  template bool agree(const std::vector<Pose>&, const std::vector<Pose>&,                                \
+                      const std::vector<TrajectorySegment>&, const std::vector<int>&, double);           \
+  template RadioAlignment<Pose> continued(const TeamGraph<Pose>&, RadioAlignment<Pose>,                  \
+                                          const RadioAlignment<Pose>&, const RadioAlignmentParams&);
+RADIOSLAM_ALIGNMENT_CONTINUITY(SE2)
+RADIOSLAM_ALIGNMENT_CONTINUITY(SE3)
+#undef RADIOSLAM_ALIGNMENT_CONTINUITY
+
+}  // namespace radioslam

@@ -1,0 +1,28 @@
+// Keeps a team's alignment as measurements come: another one replaces it only where its evidence is clearly
+// better.
+//
+// Alignments of a search are held against the one known before, which is refined with the same measurements.
+// Evidence compares alignments of the same frames only, so an alignment that has joined more of them is
+// refined within the frames known before.
+#pragma once
+
+#include <vector>
+
+#include "radioslam/team_frame/radio_alignment.hpp"
+
+namespace radioslam {
+
+/// Whether two alignments agree on trajectories in one frame: no pose is further than `tolerance_m`, and what
+/// a turn by a degree does, from its place, once the frame's longest trajectory lies on itself.
+template <class Pose>
+bool agree(const std::vector<Pose>& a, const std::vector<Pose>& b,
+           const std::vector<TrajectorySegment>& segments, const std::vector<int>& frame_of_segment,
+           double tolerance_m);
+
+/// The alignments found, with one first that agrees with the best of `before`, unless the best one found is
+/// more than 20 times as likely within the frames known before. Where none agrees, those of `before`.
+template <class Pose>
+RadioAlignment<Pose> continued(const TeamGraph<Pose>& team, RadioAlignment<Pose> found,
+                               const RadioAlignment<Pose>& before, const RadioAlignmentParams& params);
+
+}  // namespace radioslam

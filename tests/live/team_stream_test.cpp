@@ -1,0 +1,89 @@
+#include "radioslam/live/team_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "radioslam/base/parallel.hpp"
+#include "radioslam/sim/scenarios/city.hpp"
+
+namespace radioslam {
+namespace {
+
+CityParams town() {
+  CityParams params;
+  params.path_length_m = 400;
+  params.min_contact_s = 5;
+  params.radio.links = 60;
+  return params;
+}
+
+StreamedTeam stream(const SimulatedMission& simulated) {
+  const RunParams params;
+  const auto robots = replay(simulated.mission, params.scans, params.keyframe);
+  const auto error_of = [&](const std::vector<EstimatedTrajectory>& team) -> std::optional<double> {
+    const auto ate = evaluate_trajectories(team, simulated.truth, simulated.mission.dimension).ate;
+    return ate ? std::optional(ate->rmse_m) : std::nullopt;
+  };
+  return stream_team(simulated.mission, robots, params, {}, error_of);
+}
+
+TEST(TeamStream, RobotsComeToShareAFrameAndStayThere) {
+  const SimulatedMission simulated = simulate_city(town(), 3);
+  const StreamedTeam team = stream(simulated);
+  ASSERT_FALSE(team.estimates.empty());
+  const OnlineEstimate& last = team.estimates.back();
+  EXPECT_EQ(last.frame, std::vector<std::size_t>(simulated.mission.robots.size(), 0));
+  ASSERT_TRUE(last.error_m);
+  EXPECT_LT(*last.error_m, 5);
+  const auto joins = std::count_if(team.events.begin(), team.events.end(), [](const auto& event) {
+    return event.what.find("is in the frame of robot a") != std::string::npos;
+  });
+  EXPECT_EQ(joins, static_cast<long>(simulated.mission.robots.size()) - 1);
+}
+
+TEST(TeamStream, EveryKeyframeOfTheLogsIsSaidOnceInTimeOrder) {
+  const SimulatedMission simulated = simulate_city(town(), 3);
+  const StreamedTeam team = stream(simulated);
+  std::vector<std::uint32_t> next(simulated.mission.robots.size(), 0);
+  for (const OnlineKeyframe& keyframe : team.keyframes) EXPECT_EQ(keyframe.number, next[keyframe.robot]++);
+  for (std::size_t k = 1; k < team.estimates.size(); ++k)
+    EXPECT_GE(seconds_between(team.estimates[k - 1].at, team.estimates[k].at), 1);
+}
+
+/// A frame is where an estimate put it, until the next one: keyframes in between follow the odometry.
+TEST(TeamStream, AKeyframeFollowsTheOdometrySinceTheLastEstimate) {
+  const SimulatedMission simulated = simulate_city(town(), 3);
+  const StreamedTeam team = stream(simulated);
+  const Trajectory<SE3>& odometry = simulated.mission.robots[0].odometry;
+  const OnlineKeyframe* before = nullptr;
+  for (const OnlineKeyframe& keyframe : team.keyframes) {
+    if (keyframe.robot != 0) continue;
+    if (before && before->estimate == keyframe.estimate) {
+      const SE2 by_odometry = flatten(*odometry.at(before->stamp)).inverse() * flatten(*odometry.at(keyframe.stamp));
+      const SE2 online = flatten(before->T_frame_body).inverse() * flatten(keyframe.T_frame_body);
+      EXPECT_LT((by_odometry.inverse() * online).log().norm(), 1e-6);
+    }
+    before = &keyframe;
+  }
+}
+
+TEST(TeamStream, DoesNotDependOnTheNumberOfThreads) {
+  const SimulatedMission simulated = simulate_city(town(), 4);
+  set_thread_count(1);
+  const StreamedTeam one = stream(simulated);
+  set_thread_count(0);
+  const StreamedTeam many = stream(simulated);
+  ASSERT_EQ(one.keyframes.size(), many.keyframes.size());
+  for (std::size_t k = 0; k < one.keyframes.size(); ++k) {
+    EXPECT_EQ(one.keyframes[k].T_frame_body.matrix(), many.keyframes[k].T_frame_body.matrix());
+    EXPECT_EQ(one.keyframes[k].frame, many.keyframes[k].frame);
+  }
+  ASSERT_EQ(one.events.size(), many.events.size());
+  for (std::size_t k = 0; k < one.events.size(); ++k) EXPECT_EQ(one.events[k].what, many.events[k].what);
+}
+
+}  // namespace
+}  // namespace radioslam
