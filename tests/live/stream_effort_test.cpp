@@ -40,7 +40,7 @@ TEST(StreamEffort, ClosuresAreJudgedAgainWhenMoreIsKnown) {
   EXPECT_EQ(due_effort(state, at(120), known(1100, 100), {}), Effort::kExtend);
   EXPECT_EQ(due_effort(state, at(120), known(1300, 100), {}), Effort::kJudge);
   EXPECT_EQ(due_effort(state, at(109), known(1300, 100), {}), Effort::kExtend);
-  KnownCounts with_closure = known(1150, 100);
+  KnownCounts with_closure = known(1010, 100);
   with_closure.closures = 1;
   EXPECT_EQ(due_effort(state, at(120), with_closure, {}), Effort::kJudge);
 }
@@ -59,6 +59,8 @@ TEST(StreamEffort, AlignmentsAreSearchedWhereFramesMayBeJoinedOrNothingIsCertain
   state.weight = 1;
   state.is_contradicted = true;
   EXPECT_EQ(due_effort(state, at(130), known(1010, 110), {}), Effort::kAlign);
+  state.note(Effort::kExtend, at(131), known(1010, 110));
+  EXPECT_EQ(due_effort(state, at(133), known(1010, 111), {}), Effort::kJudge) << "before all are searched";
 }
 
 /// All judgements of a mission that grows evenly cost a few times as much as the last one.

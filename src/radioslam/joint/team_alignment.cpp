@@ -201,9 +201,9 @@ namespace {
 /// Alignments of the team's radio links that are near those known before.
 template <class Pose>
 RadioAlignment<Pose> refined(const TeamGraph<Pose>& team, const TeamAlignment<Pose>& before,
-                             std::size_t alternatives, const RadioAlignmentParams& params) {
+                             const RadioAlignmentParams& params) {
   std::vector<std::vector<Pose>> starts{team.graph.poses};
-  for (std::size_t k = 0; k < std::min(alternatives, before.alternatives.size()); ++k)
+  for (std::size_t k = 0; k < before.alternatives.size(); ++k)
     if (before.alternative_weights[k] >= kMinSearchedWeight) starts.push_back(before.alternatives[k]);
   return refine_alignments(team, before.segments, starts, params);
 }
@@ -213,10 +213,11 @@ RadioAlignment<Pose> radio_alignment(const TeamGraph<Pose>& team, const RadioAli
                                      const Progress& progress, const TeamAlignment<Pose>* before,
                                      AlignmentSearch search) {
   if (!before || before->segments.of_segment.empty()) return align_by_radio(team, params, progress);
+  const RadioAlignment<Pose> as_before{before->segments, {refine_alignment(team, before->segments, params)}};
   return continued(team,
                    search == AlignmentSearch::kAll ? align_by_radio(team, params, progress)
-                                                   : refined(team, *before, kMaxAlternatives, params),
-                   refined(team, *before, 0, params), params);
+                                                   : refined(team, *before, params),
+                   as_before, params);
 }
 
 }  // namespace

@@ -253,7 +253,6 @@ std::optional<TeamEstimate<Pose>> extended(const TeamEstimate<Pose>& before, Joi
 
 template <class Pose>
 std::vector<int> settled_components(const TeamEstimate<Pose>& team, double certainty) {
-  constexpr double kSame_m = 1;
   const TeamAlignment<Pose>& alignment = team.alignment;
   const auto& segments = team.joint.team.segments;
   std::vector<int> component = alignment.component;
@@ -268,7 +267,7 @@ std::vector<int> settled_components(const TeamEstimate<Pose>& team, double certa
         for (std::size_t s = 0; s < segments.size(); ++s)
           if (team.joint.robot_of_segment[s] == r || team.joint.robot_of_segment[s] == other) frames[s] = 0;
         return before[other] == before[r] &&
-               agree(team.joint.team.graph.poses, alignment.alternatives[k], segments, frames, kSame_m);
+               agree(team.joint.team.graph.poses, alignment.alternatives[k], segments, frames);
       };
       std::size_t other = 0;
       while (other < r && !stays_with(other)) ++other;

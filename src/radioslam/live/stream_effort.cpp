@@ -5,11 +5,9 @@
 namespace radioslam {
 namespace {
 
-constexpr double kPeriod_s = 1, kJudgePeriod_s = 10;
+constexpr double kPeriod_s = 1, kJudgePeriod_s = 10, kContradictedPeriod_s = 3;
 constexpr double kSecondsPerKeyframe = 6e-6;  // of an extension
 constexpr double kJudgedGrowth = 1.25;        // of what is known
-constexpr double kEarlyGrowth = 1.1;          // with a new closure, or so many links:
-constexpr std::size_t kManyLinks = 100;
 constexpr std::size_t kFewLinks = 4;  // that may relate two frames
 constexpr double kSearchedGrowth = 1.5, kSearchedTime = 1.2;
 constexpr double kCertain = 0.99;
@@ -25,25 +23,23 @@ bool needs_search(const EffortState& state, const KnownCounts& known) {
   return (known.unjoined_links >= kFewLinks &&
           has_grown(known.unjoined_links, before.unjoined_links, kSearchedGrowth)) ||
          (state.weight < kCertain && has_grown(known.links, before.links, kSearchedGrowth)) ||
-         state.is_contradicted;
+         (state.is_contradicted && state.last != Effort::kExtend);
 }
 
 bool needs_judgement(const EffortState& state, const KnownCounts& known) {
   if (!state.judged) return true;
   const KnownCounts& before = state.judged->known;
-  const auto any_has_grown = [&](double by) {
-    return has_grown(known.keyframes, before.keyframes, by) || has_grown(known.links, before.links, by) ||
-           has_grown(known.fingerprints, before.fingerprints, by);
-  };
-  return any_has_grown(kJudgedGrowth) ||
-         ((known.closures > before.closures || known.links >= before.links + kManyLinks) &&
-          any_has_grown(kEarlyGrowth));
+  return has_grown(known.keyframes, before.keyframes, kJudgedGrowth) ||
+         has_grown(known.links, before.links, kJudgedGrowth) ||
+         has_grown(known.fingerprints, before.fingerprints, kJudgedGrowth) ||
+         has_grown(known.closures, before.closures, kJudgedGrowth);
 }
 
 }  // namespace
 
 void EffortState::note(Effort effort, Stamp at, const KnownCounts& known) {
   any = {at, known};
+  last = effort;
   if (effort == Effort::kExtend) return;
   judged = any;
   if (effort == Effort::kAlign) aligned = any;
@@ -58,7 +54,9 @@ std::optional<Effort> due_effort(const EffortState& state, Stamp now, const Know
   if (needs_search(state, known) && since_search_s >= kJudgePeriod_s &&
       seconds_between(state.begin, now) >= kSearchedTime * seconds_between(state.begin, state.aligned->at))
     return Effort::kAlign;
-  if (needs_judgement(state, known) && seconds_between(state.judged->at, now) >= kJudgePeriod_s)
+  const double since_judgement_s = seconds_between(state.judged->at, now);
+  if ((needs_judgement(state, known) && since_judgement_s >= kJudgePeriod_s) ||
+      (state.is_contradicted && since_judgement_s >= kContradictedPeriod_s))
     return Effort::kJudge;
   const double nominal_s = kSecondsPerKeyframe * static_cast<double>(known.keyframes);
   if (since_s * params.work_share < nominal_s) return std::nullopt;

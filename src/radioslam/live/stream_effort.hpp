@@ -31,7 +31,8 @@ struct EffortState {
   std::optional<Done> any, judged, aligned;
   Stamp begin;                   ///< of the mission
   double weight = 1;             ///< of the alignment
-  bool is_contradicted = false;  ///< links since fit much worse than those before
+  bool is_contradicted = false;  ///< the last links fit much worse than those before
+  Effort last = Effort::kAlign;
 
   void note(Effort effort, Stamp at, const KnownCounts& known);
 };

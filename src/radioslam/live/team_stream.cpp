@@ -193,17 +193,31 @@ class TeamStream {
     return most;
   }
 
-  /// Whether the last ranges have much less weight than all.
+  /// Whether the last links within frames have much less weight than all.
   bool fits_worse_of_late() const {
-    constexpr std::size_t kLate = 30;
+    constexpr std::size_t kLate = 10;
     const JointGraph<Pose>& joint = solution_->team.joint;
-    std::vector<double> weights;
+    const auto segment_of = segment_of_poses(joint.team);
+    const auto& frames = solution_->team.alignment.segments.of_segment;
+    if (frames.empty()) return false;
+    std::vector<std::pair<Stamp, double>> weights;
+    const auto add = [&](const FactorOrigin& origin, double weight) {
+      const auto frame = [&](RobotIndex robot) {
+        return frames[segment_of[joint.robots[robot.index()].poses.front().index()]];
+      };
+      if (origin.robot_i.valid() && origin.robot_j.valid() && frame(origin.robot_i) == frame(origin.robot_j))
+        weights.emplace_back(origin.stamp_i, weight);
+    };
     for (const std::size_t k : factors_of(joint.origins.ranges, FactorSource::kRange))
-      weights.push_back(joint.team.graph.ranges[k].weight);
+      add(joint.origins.ranges[k], joint.team.graph.ranges[k].weight);
+    for (std::size_t k = 0; k < joint.bearing_weights.size(); ++k)
+      add(joint.origins.bearings[k], joint.bearing_weights[k].weight);
     if (weights.size() < 2 * kLate) return false;
+    std::stable_sort(weights.begin(), weights.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     const auto mean = [&](std::size_t from) {
       double sum = 0;
-      for (std::size_t k = from; k < weights.size(); ++k) sum += weights[k];
+      for (std::size_t k = from; k < weights.size(); ++k) sum += weights[k].second;
       return sum / static_cast<double>(weights.size() - from);
     };
     return mean(weights.size() - kLate) < 0.5 * mean(0);

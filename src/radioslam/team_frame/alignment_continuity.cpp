@@ -5,11 +5,13 @@
 #include <map>
 #include <utility>
 
+#include "radioslam/team_frame/beam_search/beam_selection.hpp"
+
 namespace radioslam {
 namespace {
 
 constexpr double kClearlyLikelier = 20;
-constexpr double kTurn_rad = 0.02;  // between alignments that are the same
+constexpr double kSame_m = 1, kTurn_rad = 0.02, kSigmas = 3;  // between alignments that are the same
 
 template <class Pose>
 double evidence_within(const TeamGraph<Pose>& team, const TeamHypothesis<Pose>& hypothesis,
@@ -24,7 +26,7 @@ double evidence_within(const TeamGraph<Pose>& team, const TeamHypothesis<Pose>& 
 template <class Pose>
 bool agree(const std::vector<Pose>& a, const std::vector<Pose>& b,
            const std::vector<TrajectorySegment>& segments, const std::vector<int>& frame_of_segment,
-           double tolerance_m) {
+           const std::vector<double>& sigmas_m) {
   std::map<int, std::size_t> longest;  // by frame
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const auto [known, is_new] = longest.emplace(frame_of_segment[s], s);
@@ -39,7 +41,8 @@ bool agree(const std::vector<Pose>& a, const std::vector<Pose>& b,
     for (std::size_t k = segment.first_pose; k < segment.first_pose + segment.pose_count; ++k) {
       const double away_m = (a[k].translation() - a[middle].translation()).norm();
       const double off_m = ((T_a_b * b[k]).translation() - a[k].translation()).norm();
-      if (off_m > tolerance_m + kTurn_rad * away_m) return false;
+      const double sigma_m = sigmas_m.empty() ? 0 : sigmas_m[k];
+      if (off_m > kSame_m + kTurn_rad * away_m + kSigmas * sigma_m) return false;
     }
   }
   return true;
@@ -48,11 +51,13 @@ bool agree(const std::vector<Pose>& a, const std::vector<Pose>& b,
 template <class Pose>
 RadioAlignment<Pose> continued(const TeamGraph<Pose>& team, RadioAlignment<Pose> found,
                                const RadioAlignment<Pose>& before, const RadioAlignmentParams& params) {
-  constexpr double kSame_m = 1;
   const std::vector<int>& frames = before.components.of_segment;
   const TeamHypothesis<Pose>& kept = before.hypotheses.front();
+  const TeamValues<Pose> values{kept.poses, kept.points, kept.drifts, kept.log_evidence};
+  const std::vector<double> sigmas_m = position_sigmas_m(
+      partial_mixture(connected_team(team, before.components), before.components, values, params.mixture));
   const auto agrees = [&](const TeamHypothesis<Pose>& other) {
-    return agree(kept.poses, other.poses, team.segments, frames, kSame_m);
+    return agree(kept.poses, other.poses, team.segments, frames, sigmas_m);
   };
   auto& hypotheses = found.hypotheses;
   if (agrees(hypotheses.front())) return found;
@@ -67,7 +72,8 @@ RadioAlignment<Pose> continued(const TeamGraph<Pose>& team, RadioAlignment<Pose>
 
 #define RADIOSLAM_ALIGNMENT_CONTINUITY(Pose)                                                              \
   template bool agree(const std::vector<Pose>&, const std::vector<Pose>&,                                \
-                      const std::vector<TrajectorySegment>&, const std::vector<int>&, double);           \
+                      const std::vector<TrajectorySegment>&, const std::vector<int>&,                    \
+                      const std::vector<double>&);                                                       \
   template RadioAlignment<Pose> continued(const TeamGraph<Pose>&, RadioAlignment<Pose>,                  \
                                           const RadioAlignment<Pose>&, const RadioAlignmentParams&);
 RADIOSLAM_ALIGNMENT_CONTINUITY(SE2)

@@ -12,12 +12,13 @@
 
 namespace radioslam {
 
-/// Whether two alignments agree on trajectories in one frame: no pose is further than `tolerance_m`, and what
-/// a turn by a degree does, from its place, once the frame's longest trajectory lies on itself.
+/// Whether two alignments agree on trajectories in one frame: no pose is further than a metre, what a turn by
+/// a degree does, and three of its `sigmas_m`, which may be empty, from its place, once the frame's longest
+/// trajectory lies on itself. Segments without a frame (-1) are left out.
 template <class Pose>
 bool agree(const std::vector<Pose>& a, const std::vector<Pose>& b,
            const std::vector<TrajectorySegment>& segments, const std::vector<int>& frame_of_segment,
-           double tolerance_m);
+           const std::vector<double>& sigmas_m = {});
 
 /// The alignments found, with one first that agrees with the best of `before`, unless the best one found is
 /// more than 20 times as likely within the frames known before. Where none agrees, those of `before`.

@@ -80,13 +80,22 @@ RadioAlignment<Pose> ranked(const TeamGraph<Pose>& team, const TeamComponents& c
 
 }  // namespace
 
+namespace {
+
+template <class Pose>
+TeamHypothesis<Pose> refined(const TeamGraph<Pose>& team, const ConnectedTeam<Pose>& connected,
+                             const VarianceInflation& inflation, const RadioAlignmentParams& params) {
+  MixtureGraph<Pose> mixture(connected.team, params.mixture);
+  const double log_evidence = refine(mixture, inflation, params.refinement).log_evidence;
+  return described(team, connected, std::move(mixture), log_evidence);
+}
+
+}  // namespace
+
 template <class Pose>
 TeamHypothesis<Pose> refine_alignment(const TeamGraph<Pose>& team, const TeamComponents& components,
                                       const RadioAlignmentParams& params) {
-  const ConnectedTeam<Pose> connected = connected_team(team, components);
-  MixtureGraph<Pose> mixture(connected.team, params.mixture);
-  const double log_evidence = refine(mixture, {}, params.refinement).log_evidence;
-  return described(team, connected, std::move(mixture), log_evidence);
+  return refined(team, connected_team(team, components), {}, params);
 }
 
 template <class Pose>
@@ -120,7 +129,9 @@ RadioAlignment<Pose> refine_alignments(const TeamGraph<Pose>& team, const TeamCo
   TeamGraph<Pose> at = team;
   for (const std::vector<Pose>& poses : starts) {
     at.graph.poses = poses;
-    hypotheses.push_back(refine_alignment(at, components, params));
+    const ConnectedTeam<Pose> connected = connected_team(at, components);
+    hypotheses.push_back(refined(at, connected, {}, params));
+    hypotheses.push_back(refined(at, connected, inflation_by_odometry(connected.team), params));
   }
   return ranked(team, components, std::move(hypotheses), params);
 }

@@ -48,8 +48,9 @@ template <class Pose>
 TeamHypothesis<Pose> refine_alignment(const TeamGraph<Pose>& team, const TeamComponents& components,
                                       const RadioAlignmentParams& params);
 
-/// The alignments nearest to these values of all poses, in the frames of `components`: those of the team as it
-/// was known before, say. Alike ones are one.
+/// The alignments near these values of all poses, in the frames of `components`: those of the team as it was
+/// known before, say. Each is refined twice, as it is and with the variances of the odometry's drift, without
+/// which links after a long time without any pass for outliers. Alike ones are one.
 template <class Pose>
 RadioAlignment<Pose> refine_alignments(const TeamGraph<Pose>& team, const TeamComponents& components,
                                        const std::vector<std::vector<Pose>>& starts,
