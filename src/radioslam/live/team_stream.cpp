@@ -128,7 +128,8 @@ class TeamStream {
     if (!effort) return;
     const auto begin = std::chrono::steady_clock::now();
     const MeasuredScans scans = *effort == Effort::kExtend ? MeasuredScans{} : scans_of(logged.mission);
-    solution_ = estimate<Pose>({logged, scans}, solution_ ? &*solution_ : nullptr, *effort, params_);
+    solution_ = estimate<Pose>({logged, scans}, solution_ ? &*solution_ : nullptr, *effort, params_,
+                               {.lists_overlaps = false});
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     state_.weight = solution_->team.alignment.weight;

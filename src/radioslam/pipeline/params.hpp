@@ -93,6 +93,7 @@ struct RunOptions {
   Pruning pruning = Pruning::kOn;
   SearchMethod search = SearchMethod::kTree;
   bool overlap_only = false;                             ///< stop after the overlap search
+  bool lists_overlaps = true;                            ///< false: only those of closures are asked for
   std::optional<VerificationBudget> verifications = {};  ///< scans of different robots that are registered
   /// Receives every candidate as the search finds it; then none is listed in the result.
   TakeCandidates take_candidates = nullptr;

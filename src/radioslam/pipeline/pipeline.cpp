@@ -165,7 +165,7 @@ OverlapStage list_overlaps(const RunSetup& run, const TeamEstimate<Pose>& team) 
   const auto listed = static_cast<std::size_t>(run.params.overlap.max_listed_candidates);
   return search_overlaps(
       run, team, run.params.overlap,
-      {run.options.search, run.options.take_candidates ? 0 : listed,
+      {run.options.search, run.options.take_candidates || !run.options.lists_overlaps ? 0 : listed,
        keyframes_of(team.joint, team.measured.closures.loops), run.options.take_candidates});
 }
 
@@ -295,7 +295,8 @@ JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
   if (has_closures && is_pruned && run.params.matches.robust)
     run.timed("alignment by closures", choose_alignment<Pose>, run, team);
   const auto search = [&] {
-    if (needs_overlap_search(run)) judged.overlaps = run.timed("overlap", list_overlaps<Pose>, run, team);
+    if (needs_overlap_search(run) && (has_closures || run.options.lists_overlaps))
+      judged.overlaps = run.timed("overlap", list_overlaps<Pose>, run, team);
   };
   if (!has_closures || relates_robots(team.alignment)) search();
   const auto frames = team.alignment.component;
