@@ -13,4 +13,7 @@ radioslam_room(places
     scan_context_index.cpp
     sector_dft.cpp
     seen_through.cpp
+    stretches/stretch_grid.cpp
+    stretches/stretch_loops.cpp
+    stretches/stretch_search.cpp
   ROOMS lidar graph)

@@ -50,9 +50,10 @@ std::vector<SE3> around_the_ring() {
 
 /// Keyframes along these poses, with odometry that has random-walk noise per step.
 ScanKeyframes keyframes_along(const ScannedRoom& room, const std::vector<SE3>& truth, ScannerKind kind,
-                              double sigma_step_m, double sigma_step_rad, std::uint64_t seed) {
+                              double sigma_step_m, double sigma_step_rad, std::uint64_t seed,
+                              double view_rad = 2 * std::numbers::pi) {
   Rng scans(seed), steps = scans.split("steps");
-  Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner() : Scanner();
+  Scanner scanner = kind == ScannerKind::kPlanar ? planar_scanner(360, view_rad) : Scanner();
   if (kind == ScannerKind::kSpatial) scanner.azimuths = 120;
   ScanKeyframes keyframes;
   keyframes.kind = kind;
@@ -115,6 +116,23 @@ TEST(CloseScanLoops, BringALongDriftBackTenfold) {
     EXPECT_GT(drift_m, 2) << "the task is too easy";
     EXPECT_LT(10 * closed_m, drift_m);
   }
+}
+
+/// A scanner that sees what is ahead shares next to nothing with itself on the way back.
+TEST(CloseScanLoops, JoinTheWayBackAlongCorridorsByWhatStretchesSaw) {
+  auto truth = around_the_ring();
+  const std::vector<SE3> there = truth;
+  for (auto pose = there.rbegin(); pose != there.rend(); ++pose)
+    truth.push_back(*pose * SE3::exp(planar_motion(0, 0, std::numbers::pi)));
+  const auto keyframes =
+      keyframes_along(ring_of_corridors(), truth, ScannerKind::kPlanar, 0.02, 0.02, 4, std::numbers::pi);
+  const ScanLoops loops = close_loops(keyframes);
+  const auto is_on_the_way_back = [&](const ScanLoop& loop) {
+    return loop.status == LoopStatus::kAccepted && loop.i < there.size() && loop.j >= there.size() + 10 &&
+           std::abs((truth[loop.i].inverse() * truth[loop.j]).yaw()) > 2;
+  };
+  EXPECT_GT(std::count_if(loops.loops.begin(), loops.loops.end(), is_on_the_way_back), 3);
+  expect_right(loops, truth, 0.4);
 }
 
 /// Two identical rooms, thirty metres apart.

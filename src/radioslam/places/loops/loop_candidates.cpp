@@ -90,15 +90,19 @@ std::shared_ptr<const std::vector<double>> LoopCandidates::sigmas_with(std::size
     const std::lock_guard lock(sigmas_mutex_);
     if (const auto known = sigmas_.find(i); known != sigmas_.end()) return known->second;
   }
-  const std::vector<SE3::Jacobian> with_i = marginals_->relative_poses_with(PoseId(i));
   std::vector<double> sigmas;
-  for (std::size_t k = 0; k < with_i.size(); ++k) {
-    const SE3::Jacobian covariance = relative_covariance(std::min(i, k), std::max(i, k), with_i[k]);
+  for (const SE3::Jacobian& covariance : covariances_with(i))
     sigmas.push_back(std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3));
-  }
   const std::lock_guard lock(sigmas_mutex_);
   if (sigmas_.size() >= kKeptSigmas) sigmas_.clear();
   return sigmas_[i] = std::make_shared<const std::vector<double>>(std::move(sigmas));
+}
+
+std::vector<SE3::Jacobian> LoopCandidates::covariances_with(std::size_t j) const {
+  std::vector<SE3::Jacobian> with_j = marginals_->relative_poses_with(PoseId(j));
+  for (std::size_t k = 0; k < with_j.size(); ++k)
+    with_j[k] = relative_covariance(std::min(j, k), std::max(j, k), with_j[k]);
+  return with_j;
 }
 
 SE3::Jacobian LoopCandidates::relative_covariance(std::size_t i, std::size_t j,

@@ -47,6 +47,11 @@ class LoopCandidates {
   /// Standard deviation of the relative position of two keyframes, by the estimate of the last search. Of one
   /// `i` with many `j` it costs one solution. Thread-safe.
   double sigma_m(std::size_t i, std::size_t j) const;
+  /// Covariance of keyframe j's pose relative to each, the earlier one first, by the estimate of the last
+  /// search; at the cost of one solution.
+  std::vector<SE3::Jacobian> covariances_with(std::size_t j) const;
+  /// Whether the last search had an estimate with covariances.
+  bool has_covariances() const { return marginals_.has_value(); }
   /// What came of a candidate.
   void note(const ScanLoop& tried);
   const std::vector<double>& path_m() const { return path_m_; }

@@ -10,6 +10,7 @@
 #include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/lidar/structure_fit.hpp"
 #include "radioslam/places/keyframe_contexts.hpp"
+#include "radioslam/places/loops/alternatives.hpp"
 #include "radioslam/places/loops/storey.hpp"
 
 namespace radioslam {
@@ -18,12 +19,7 @@ namespace {
 constexpr double kBeyond =
     4.0 / 3;  // how far alternatives are searched, in the width of a search for the place
 constexpr double kSamePlace_m = 1;
-constexpr double kAlternativeLog = 3;  // e^-3: twenty times less likely
-constexpr double kFits = 0.3;          // likelihood from which a pose counts as one that fits
-constexpr double kUnseenFits = 0.02;   // before any was found
-constexpr double kUnseenShare = 0.2;   // of the area that is possible
-constexpr double kStoreyPrior = 0.1;   // that there is a storey that looks the same
-constexpr double kLeastWeight = 1e-12;
+constexpr double kStoreyPrior = 0.1;  // that there is a storey that looks the same
 
 /// What the points do not observe is known to a hundred metres and radians.
 SE3::Jacobian covariance_of_fit(const Registration& fit) {
@@ -111,6 +107,13 @@ ScanLoop LoopVerification::verify(const PlacedKeyframes& target, std::size_t i, 
   return loop;
 }
 
+ScanLoop LoopVerification::register_near(const PlacedKeyframes& target, std::size_t i,
+                                         const PlacedKeyframes& source, std::size_t j,
+                                         const UncertainPose<SE3>& T_i_j) const {
+  const Fit fit = fits_around(target, i, *source_around(source, j), T_i_j).front();
+  return {i, j, fit.T_i_j, bounded(fit.registration.information), fit.registration.inlier_ratio};
+}
+
 LoopStatus LoopVerification::status_of(const Fit& best, const Alternatives& alternatives) const {
   if (best.elsewhere || best.likelihood < kFits) return LoopStatus::kAmbiguous;
   if (alternatives.doubt() <= params_.max_doubt) return LoopStatus::kAccepted;
@@ -172,8 +175,7 @@ LoopVerification::Alternatives LoopVerification::weigh(const Setting& setting, s
   double best = 0;
   for (const Fit& fit : fits) best = std::max(best, fit.structure);
   for (Fit& fit : fits) {
-    const double worse = best > 0 ? (1 - fit.structure / best) / (1 - params_.alternative_ratio) : 0;
-    fit.likelihood = std::exp(-kAlternativeLog * worse * worse);
+    fit.likelihood = likelihood_beside(best, fit.structure, params_.alternative_ratio);
     const SE3::Jacobian covariance = expected.T_i_j.covariance + covariance_of_fit(fit.registration) +
                                      isotropic(fit.place_sigma_m * fit.place_sigma_m, 0);
     double prior = expected.anywhere ? 1 : 0;
@@ -198,7 +200,7 @@ LoopVerification::Alternatives LoopVerification::alternatives_of(const std::vect
     alternatives.fits += weighed[k].weight / weight;
     if (weighed[k].likelihood > kFits) fitting += weighed[k].likelihood;
   }
-  alternatives.unmapped = kUnseenShare * fitting / setting.map_area_m2 * setting.possible_m2 / weight;
+  alternatives.unmapped = weight_of_unseen(fitting, setting.map_area_m2, setting.possible_m2) / weight;
   alternatives.storeys = unseen_storeys(setting, best);
   return alternatives;
 }

@@ -49,6 +49,9 @@ class LoopVerification {
   /// Keyframe j of `source` on the submap around keyframe i of `target`.
   ScanLoop verify(const PlacedKeyframes& target, std::size_t i, const PlacedKeyframes& source, std::size_t j,
                   const ExpectedPlace& expected) const;
+  /// The best fit of the same near a known pose, weighed against nothing.
+  ScanLoop register_near(const PlacedKeyframes& target, std::size_t i, const PlacedKeyframes& source,
+                         std::size_t j, const UncertainPose<SE3>& T_i_j) const;
 
  private:
   struct Fit {

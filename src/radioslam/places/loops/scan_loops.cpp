@@ -10,6 +10,7 @@
 #include "radioslam/graph/graduated.hpp"
 #include "radioslam/places/keyframe_contexts.hpp"
 #include "radioslam/places/loops/loop_verification.hpp"
+#include "radioslam/places/stretches/stretch_loops.hpp"
 
 namespace radioslam {
 namespace {
@@ -49,6 +50,15 @@ ScanContextIndex index_of(const ScanKeyframes& keyframes, const std::vector<doub
   const double given_m = search.descriptors.context.max_range_m;
   return keyframe_index(keyframes, path_m, given_m > 0 ? given_m : context_range(keyframes),
                         search.loops.submap_m, search.descriptors);
+}
+
+/// Between stretches that no closure of these, nor of those tried now, closes.
+void add_stretches(StretchLoops& stretches, PlacedKeyframes robot, std::vector<ScanLoop> known,
+                   std::vector<ScanLoop>& tried) {
+  known.insert(known.end(), tried.begin(), tried.end());
+  robot.submaps = std::make_shared<KeptSubmaps>();  // these are longer
+  const std::vector<ScanLoop> of_stretches = stretches.find(robot, known);
+  tried.insert(tried.end(), of_stretches.begin(), of_stretches.end());
 }
 
 /// Replaces what was said of the same pairs before.
@@ -95,6 +105,12 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch&
   LoopCandidates candidates(keyframes, params, before ? before->tried : TriedPairs());
   const LoopVerification verification(params, {.target_m = params.submap_m, .storeys = search.storeys},
                                       search.map, search.pose, search.registration);
+  constexpr double kStretch_m = 10;
+  const LoopVerification registration(
+      params, {.target_m = kStretch_m, .source_m = kStretch_m / 2, .storeys = search.storeys}, search.map,
+      search.pose, search.registration);
+  std::optional<StretchLoops> stretches;
+  if (keyframes.kind == ScannerKind::kPlanar) stretches.emplace(keyframes, candidates, registration, params);
   std::optional<ScanContextIndex> index;
   ScanLoops result;
   if (before && !before->loops.empty()) {
@@ -104,16 +120,22 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch&
     optimize_and_prune(graph, steps, result.loops, progress);
   }
   for (int round = 0; round < params.rounds; ++round) {
-    const std::vector<LoopCandidate> found = candidates.find(graph);
-    if (!index && std::any_of(found.begin(), found.end(), [&](const LoopCandidate& candidate) {
-          return verification.reaches_elsewhere({candidate.T_i_j},
-                                                keyframes.clouds[candidate.j].median_range_m());
-        }))
+    std::vector<LoopCandidate> found = candidates.find(graph);
+    const auto reaches_elsewhere = [&](const LoopCandidate& candidate) {
+      return verification.reaches_elsewhere({candidate.T_i_j},
+                                            keyframes.clouds[candidate.j].median_range_m());
+    };
+    if (stretches)
+      std::erase_if(found, [&](const LoopCandidate& candidate) {
+        return stretches->covers(candidate.i, candidate.j) && reaches_elsewhere(candidate);
+      });
+    if (!index && std::any_of(found.begin(), found.end(), reaches_elsewhere))
       index = index_of(keyframes, candidates.path_m(), search);
-    const auto tried = verify(found, verification,
-                              {keyframes, graph.poses, candidates.path_m(), index ? &*index : nullptr,
-                               [&](std::size_t a, std::size_t b) { return candidates.sigma_m(a, b); }});
+    const PlacedKeyframes robot{keyframes, graph.poses, candidates.path_m(), index ? &*index : nullptr,
+                                [&](std::size_t a, std::size_t b) { return candidates.sigma_m(a, b); }};
+    std::vector<ScanLoop> tried = verify(found, verification, robot);
     for (const ScanLoop& loop : tried) candidates.note(loop);
+    if (stretches && candidates.has_covariances()) add_stretches(*stretches, robot, result.loops, tried);
     take_over(tried, result.loops);
     if (std::none_of(tried.begin(), tried.end(),
                      [](const ScanLoop& loop) { return loop.status == LoopStatus::kAccepted; }))
