@@ -105,10 +105,10 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch&
   LoopCandidates candidates(keyframes, params, before ? before->tried : TriedPairs());
   const LoopVerification verification(params, {.target_m = params.submap_m, .storeys = search.storeys},
                                       search.map, search.pose, search.registration);
-  constexpr double kStretch_m = 10;
   const LoopVerification registration(
-      params, {.target_m = kStretch_m, .source_m = kStretch_m / 2, .storeys = search.storeys}, search.map,
-      search.pose, search.registration);
+      params,
+      {.target_m = StretchLoops::kHalf_m, .source_m = StretchLoops::kHalf_m / 2, .storeys = search.storeys},
+      search.map, search.pose, search.registration);
   std::optional<StretchLoops> stretches;
   if (keyframes.kind == ScannerKind::kPlanar) stretches.emplace(keyframes, candidates, registration, params);
   std::optional<ScanContextIndex> index;

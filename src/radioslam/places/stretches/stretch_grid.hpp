@@ -3,7 +3,7 @@
 //   occupied   points end there, and not eight times as many rays pass
 //   free       rays pass, and no occupied cell is within two cells
 //   value      255 where occupied, less up to two cells away, 64 where nothing was seen, 0 where it is free:
-//              a point where it is free speaks against a pose, and one where nothing was seen says nothing
+//              a point where it is free lowers a pose's score, and one where nothing was seen leaves it
 // Coarser levels bound the value from above: those of level l have 2^l cells to a side, and hold the largest
 // value that a point in them may reach when it is shifted by less than 2^l cells along each axis.
 #pragma once

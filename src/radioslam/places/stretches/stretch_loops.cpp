@@ -15,7 +15,6 @@
 namespace radioslam {
 namespace {
 
-constexpr double kHalf_m = 10;                      // path length of a stretch to either side
 constexpr double kStride_m = 5;                     // between the middles of stretches
 constexpr double kReach_m = 6;                      // from the middle, where others are searched on a stretch
 constexpr double kRange_m = 20;                     // of points and rays
@@ -48,7 +47,8 @@ std::unique_ptr<const StretchGrid> grid_around(const ScanKeyframes& keyframes,
     for (std::size_t k = j; ahead ? k + 1 < path_m.size() : k > 0;) {
       const std::size_t step = ahead ? k : k - 1;
       k = ahead ? k + 1 : k - 1;
-      if (std::abs(path_m[k] - path_m[j]) > kHalf_m || is_unknown_motion(keyframes.step_covariances[step]))
+      if (std::abs(path_m[k] - path_m[j]) > StretchLoops::kHalf_m ||
+          is_unknown_motion(keyframes.step_covariances[step]))
         break;
       const SE2 T_j_k = in_plane(keyframes.poses[j].inverse() * keyframes.poses[k]);
       if (keyframes.clouds[k].empty() || (std::abs(path_m[k] - last_m) < kApart_m &&

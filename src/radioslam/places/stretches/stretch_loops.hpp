@@ -27,6 +27,8 @@ namespace radioslam {
 
 class StretchLoops {
  public:
+  static constexpr double kHalf_m = 10;  ///< path length of a stretch to either side of its middle
+
   /// Keeps references to all of them, which must outlive it.
   StretchLoops(const ScanKeyframes& keyframes, const LoopCandidates& candidates,
                const LoopVerification& registration, const ScanLoopParams& params);
