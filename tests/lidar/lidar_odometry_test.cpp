@@ -51,7 +51,8 @@ TEST(LidarOdometry, FollowsDrivesThroughRoomAndHall) {
   }
 }
 
-TEST(LidarOdometry, IsNotOverconfidentAboutItsSteps) {
+/// The stated sigmas of steps are at most twice too small and three times too large.
+TEST(LidarOdometry, StatesTheErrorsOfItsSteps) {
   for (const ScannerKind kind : {ScannerKind::kSpatial, ScannerKind::kPlanar}) {
     const ScanDrive drive = drive_along(furnished_room(), scanner_of(kind), around_furnished_room(40), 3);
     const auto poses = odometry_of(drive);
@@ -61,7 +62,9 @@ TEST(LidarOdometry, IsNotOverconfidentAboutItsSteps) {
       const SE3::Tangent error = (step.inverse() * drive.truth[k - 1].inverse() * drive.truth[k]).log();
       nees += error.dot(poses[k].covariance.inverse() * error);
     }
-    EXPECT_LT(nees / (6.0 * static_cast<double>(poses.size() - 1)), 1.5);
+    nees /= 6.0 * static_cast<double>(poses.size() - 1);
+    EXPECT_LT(nees, 4);
+    EXPECT_GT(nees, 0.1);
   }
 }
 

@@ -171,6 +171,46 @@ TEST(RegisterSurfels, ReturnsTheInformationOfKnownPoints) {
   }
 }
 
+/// Mean NEES of a cloud registered to itself with noise: by the sandwich of posterior and noise, whatever
+/// sigma its surfels state. `alike`: points in the same fifteen degrees of azimuth share their noise.
+double nees_of_noise(double stated_m, bool alike) {
+  const double actual_m = 0.02;
+  const int trials = 60;
+  double mean = 0;
+  for (std::uint64_t seed = 0; seed < trials; ++seed) {
+    const std::vector<Surfel> target = scattered_surfels(300, stated_m, seed);
+    SurfelSource source{target};
+    Rng rng(500 + seed);
+    std::vector<Eigen::Vector3f> shared(48);
+    const auto noise = [&] {
+      return (actual_m * Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()))
+          .eval()
+          .cast<float>()
+          .eval();
+    };
+    for (Eigen::Vector3f& offset : shared) offset = noise();
+    for (Surfel& surfel : source.surfels) {
+      const float turn = std::atan2(surfel.position.y(), surfel.position.x()) / float(kDegree) + 180;
+      const auto sector = static_cast<std::size_t>(turn / 15) % 24 + (surfel.position.z() > 0 ? 24 : 0);
+      surfel.position += alike ? shared[sector] : noise();
+    }
+    const auto fit = register_surfels(nearest_of(target), source, {SE3(), 0, 1}, {}, ScannerKind::kSpatial,
+                                      exact_params());
+    const SE3::Jacobian back = fit.posterior.inverse();
+    const SE3::Tangent error = fit.T_target_source.log();
+    mean += error.dot((back * fit.noise * back).inverse() * error) / (6 * trials);
+  }
+  return mean;
+}
+
+TEST(RegisterSurfels, KnowsTheNoiseOfItsPointsWhateverTheyState) {
+  for (const double stated_m : {0.02, 0.05})
+    for (const bool alike : {false, true}) {
+      EXPECT_GT(nees_of_noise(stated_m, alike), 0.4) << stated_m << alike;
+      EXPECT_LT(nees_of_noise(stated_m, alike), 2) << stated_m << alike;
+    }
+}
+
 /// With equal information, the result is half way between the measurement and the prior.
 TEST(RegisterSurfels, IsMidwayBetweenMeasurementAndPriorOfEqualInformation) {
   const SurfelSource source{scattered_surfels(300, 0.05, 8)};

@@ -23,6 +23,16 @@ SE3::Jacobian tight_information() {
   return isotropic(1 / (kExact_m * kExact_m), 1 / (kExact_rad * kExact_rad));
 }
 
+/// Of the step to a scan from that at `last`. The errors of both ends count once for each metre or ten
+/// degrees that the robot moves: more scans on the same map do not add any.
+SE3::Jacobian step_covariance(const Registration& fit, const PosePrior& prior, const SE3& last) {
+  constexpr double kApart_m = 0.5, kApart_rad = 0.087, kLeast = 0.25;
+  const SE3::Tangent moved = (last.inverse() * fit.T_target_source).log();
+  const double apart = std::max(moved.head<3>().norm() / kApart_m, moved.tail<3>().norm() / kApart_rad);
+  const SE3::Jacobian noise = std::clamp(apart, kLeast, 1.0) * fit.noise + prior.information;
+  return congruence(inverse(fit.posterior), noise);
+}
+
 void describe(const Registration& fit, ScanPose& result) {
   result.inlier_ratio = fit.inlier_ratio;
   result.normalised_rms = fit.normalised_rms;
@@ -84,7 +94,8 @@ ScanPose LidarOdometry::register_scan(Stamp stamp, const LidarScan& scan,
     start_map_after_gap(deskewed, motion, result);
     return result;
   }
-  if (is_lost) fit = relocalised(result.cloud, prior, fit, T_previous_body.has_value());
+  const bool is_stuck = fits && fit.end == RegistrationStatus::kMaxIterations;
+  if (is_lost || is_stuck) fit = relocalised(result.cloud, prior, fit, T_previous_body.has_value());
   describe(fit, result);
   if ((fits || is_lost || error_.is_known()) && fit.inlier_ratio >= error_.min_inlier_ratio())
     add_to_map({std::move(deskewed), std::move(result.cloud), fit}, prior, result);
@@ -109,11 +120,13 @@ Registration LidarOdometry::register_at_prediction(const ScanPyramid& cloud, con
 
 /// Where the motion is poorly constrained, the previous pose fits better because each beam hits its own
 /// earlier scan line, on the ground most of all. The scan's structure must not fit worse there; and far from
-/// where a measured motion leads, the fit must be as good as others were.
+/// where a measured motion leads, the fit must be as good as others were. A registration that has not ended
+/// is where its iterations left it, and any better one replaces it.
 Registration LidarOdometry::relocalised(const ScanPyramid& cloud, const PosePrior& prior,
                                         const Registration& near, bool is_measured) const {
   const LidarParams& params = matcher_.params();
-  const double better = near.inlier_ratio / params.odometry.relocalise_below_ratio;
+  const bool has_ended = near.end != RegistrationStatus::kMaxIterations;
+  const double better = near.inlier_ratio / (has_ended ? params.odometry.relocalise_below_ratio : 1);
   const Registration far =
       relocalise(map_, cloud,
                  {last_->T_map_body, prior.pose, static_cast<std::size_t>(params.odometry.max_aligned),
@@ -185,7 +198,7 @@ void LidarOdometry::add_to_map(MatchedScan matched, const PosePrior& prior, Scan
   describe(matched.fit, result);
   result.status = ScanStatus::kRegistered;
   result.T_start_body = matched.fit.T_target_source;
-  result.covariance = inverse(matched.fit.posterior);
+  result.covariance = step_covariance(matched.fit, prior, last_->T_map_body);
   result.information = matcher_.observable_information(matched.fit.information);
   result.cloud = std::move(matched.cloud);
   error_.update(prediction_error, result.inlier_ratio);

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "radioslam/base/parallel.hpp"
@@ -15,6 +16,14 @@ namespace {
 constexpr std::size_t kPointsPerBlock = 256;
 
 bool has_no_normal(const Surfel& surfel) { return surfel.shape < SurfelShape::kUnstructured; }
+
+int sector_of(const Eigen::Vector3f& position) {
+  constexpr float kPi = std::numbers::pi_v<float>;
+  constexpr int kAround = kSectors / 2;
+  const float turn = (std::atan2(position.y(), position.x()) + kPi) / (2 * kPi);
+  const int sector = std::clamp(static_cast<int>(turn * kAround), 0, kAround - 1);
+  return position.z() > 0 ? sector + kAround : sector;
+}
 
 /// Uncertainty of the offset between two surfels, in the source's frame.
 struct Correspondence {
@@ -62,8 +71,10 @@ class PointLinearisation {
     sums.hessian.topLeftCorner<3, 3>() += weight * information;
     sums.hessian.topRightCorner<3, 3>() -= weight * turned;
     sums.hessian.bottomRightCorner<3, 3>() -= weight * (arm * turned);
-    sums.gradient.head<3>() -= weight * pull;
-    sums.gradient.tail<3>() -= weight * (arm * pull);
+    SE3::Tangent gradient;
+    gradient << -weight * pull, -weight * (arm * pull);
+    sums.gradient += gradient;
+    sums.sectors.col(sector_of(surfel.position)) += gradient;
     sums.normal_noise_information +=
         weight * information.trace() * static_cast<double>(correspondence->normal_noise_rad2);
     sums.weights += weight;
@@ -107,12 +118,22 @@ class PointLinearisation {
 };
 
 constexpr double kMinCorrespondences = 6;
+constexpr double kModelled = 0.05;          // of the points' variances: errors that residuals do not show
 constexpr double kPlanarInformation = 1e8;  // fixes height, roll and pitch for a planar scanner
 
 struct PoseEquations {
   SE3::Jacobian information;
   SE3::Tangent gradient;
+  SE3::Jacobian noise;  ///< covariance of the gradient
 };
+
+/// Covariance of the points' gradient by how its parts scatter from sector to sector; six degrees of freedom
+/// are spent on the pose.
+SE3::Jacobian sector_noise(const LinearisedPoints& points, double effective_sample_ratio) {
+  constexpr double kFree = static_cast<double>(kSectors) / (kSectors - SE3::kDof);
+  const SE3::Jacobian scatter = points.sectors * points.sectors.transpose();
+  return effective_sample_ratio * (effective_sample_ratio * kFree * scatter + kModelled * points.hessian);
+}
 
 /// K of registration.hpp, which removes the information from normal noise; applied to the gradient as well it
 /// keeps the points' own solution.
@@ -129,12 +150,13 @@ SE3::Jacobian noise_discount(const SE3::Jacobian& information, double normal_noi
 /// The points' equations, each point counting `effective_sample_ratio`, without what noisy normals pretend.
 PoseEquations discount_normal_noise(const LinearisedPoints& points, double effective_sample_ratio,
                                     ScannerKind kind, const RegistrationParams& params) {
-  PoseEquations result{effective_sample_ratio * points.hessian, effective_sample_ratio * points.gradient};
+  PoseEquations result{effective_sample_ratio * points.hessian, effective_sample_ratio * points.gradient,
+                       sector_noise(points, effective_sample_ratio)};
   if (kind == ScannerKind::kPlanar) return result;
   const SE3::Jacobian keep =
       noise_discount(result.information,
                      params.normal_noise_factor * effective_sample_ratio * points.normal_noise_information);
-  return {keep * result.information, keep * result.gradient};
+  return {keep * result.information, keep * result.gradient, congruence(keep, result.noise)};
 }
 
 PoseEquations with_prior(PoseEquations equations, const PosePrior& prior, const SE3& T) {
@@ -149,6 +171,7 @@ PoseEquations fixed_out_of_plane(PoseEquations equations, ScannerKind kind) {
   if (kind == ScannerKind::kSpatial) return equations;
   equations.information = with_planar_prior(equations.information, kPlanarInformation, kPlanarInformation);
   equations.gradient.segment<3>(2).setZero();
+  equations.noise = with_planar_prior(equations.noise, kPlanarInformation, kPlanarInformation);
   return equations;
 }
 
@@ -177,6 +200,7 @@ double next_kernel_width(double kernel_width_m, double kernel_decay) {
 void LinearisedPoints::operator+=(const LinearisedPoints& other) {
   hessian += other.hessian;
   gradient += other.gradient;
+  sectors += other.sectors;
   normal_noise_information += other.normal_noise_information;
   weights += other.weights;
   weighted_squares += other.weighted_squares;
@@ -227,6 +251,7 @@ Registration register_surfels(const NearestSurfel& target, const SurfelSource& s
     T = T * SE3::exp(step);
     result.information = fixed_out_of_plane(trusted, kind).information;
     result.posterior = posterior.information;
+    result.noise = fixed_out_of_plane(trusted, kind).noise;
     result.inlier_ratio = points.weights / source_size;
     result.normalised_rms = std::sqrt(points.weighted_squares / std::max(1e-12, 3 * points.weights));
     if (is_small(step, params) && kernel_width_m == 0) {

@@ -49,9 +49,13 @@ struct CorrespondenceSearch {
   double loss_scale = 3;
 };
 
+/// Of the source's view: 24 of azimuth, below and above its horizon.
+inline constexpr int kSectors = 48;
+
 struct LinearisedPoints {
   SE3::Jacobian hessian = SE3::Jacobian::Zero();
   SE3::Tangent gradient = SE3::Tangent::Zero();
+  Eigen::Matrix<double, 6, kSectors> sectors = Eigen::Matrix<double, 6, kSectors>::Zero();  ///< g by sector
   double normal_noise_information = 0;  ///< sum of w tr(W) s^2, s^2: variance of noisy normals
   double weights = 0, weighted_squares = 0;
   std::size_t matches = 0;  ///< points with a correspondence
@@ -115,6 +119,7 @@ struct Registration {
   /// About xi in T_target_source * Exp(xi), without the prior.
   SE3::Jacobian information = SE3::Jacobian::Zero();
   SE3::Jacobian posterior = SE3::Jacobian::Zero();  ///< with the prior
+  SE3::Jacobian noise = SE3::Jacobian::Zero();      ///< of the points' gradient, by their residuals
   double inlier_ratio = 0;    ///< robust weights of the correspondences, over all source points
   double normalised_rms = 0;  ///< weighted rms of the normalised residuals, per axis
   int iterations = 0;

@@ -87,12 +87,22 @@ SE3::Jacobian ScanTracker::recorded_covariance(Stamp stamp) const {
   return odometry_between<SE3>(history_.robot(), previous, stamp).covariance;
 }
 
+/// Variances of the recorded motion from the stamp to the middle of the sweep: the points know the pose
+/// there.
+SE3::Tangent ScanTracker::noise_to_middle(Stamp stamp, const ScanTimeSpan& time) const {
+  const Stamp middle{stamp.ns + Stamp::from_seconds(time.middle_s).ns};
+  const Trajectory<SE3>& odometry = history_.robot().odometry;
+  if (!odometry.covers(stamp) || !odometry.covers(middle)) return SE3::Tangent::Zero();
+  return odometry_between<SE3>(history_.robot(), stamp, middle).covariance.diagonal();
+}
+
 /// Adds the motion distortion of this scan and the previous one to the covariance of the step between them.
 void ScanTracker::add_distortion_covariance(ScanPose& pose, MotionSource source, const ScanTimeSpan& time) {
   distortion_.add(pose.stamp, pose.T_start_body);
-  const SE3::Tangent variances =
+  SE3::Tangent variances =
       distortion_.variances(source, time, std::min(history_.sample_interval_s(), history_.scan_interval_s()),
                             pose.cloud.median_range_m);
+  if (source == MotionSource::kOdometry) variances += noise_to_middle(pose.stamp, time);
   pose.covariance.diagonal() += previous_distortion_ + variances;
   previous_distortion_ = variances;
 }

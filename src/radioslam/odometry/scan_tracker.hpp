@@ -41,6 +41,7 @@ class ScanTracker {
   std::optional<SE3> motion_to(Stamp stamp, const std::optional<MotionPrior>& prior) const;
   std::optional<SE3> recorded_motion(Stamp from, Stamp to) const;
   SE3::Jacobian recorded_covariance(Stamp stamp) const;
+  SE3::Tangent noise_to_middle(Stamp stamp, const ScanTimeSpan& time) const;
   void add_distortion_covariance(ScanPose& pose, MotionSource source, const ScanTimeSpan& time);
   void take_first_cloud(const std::optional<ScanPyramid>& cloud);
   void forget_start();
