@@ -94,7 +94,8 @@ ScanPose LidarOdometry::register_scan(Stamp stamp, const LidarScan& scan,
     start_map_after_gap(deskewed, motion, result);
     return result;
   }
-  const bool is_stuck = fits && fit.end == RegistrationStatus::kMaxIterations;
+  const bool is_spatial = matcher_.traits().kind == ScannerKind::kSpatial;
+  const bool is_stuck = is_spatial && fits && fit.end == RegistrationStatus::kMaxIterations;
   if (is_lost || is_stuck) fit = relocalised(result.cloud, prior, fit, T_previous_body.has_value());
   describe(fit, result);
   if ((fits || is_lost || error_.is_known()) && fit.inlier_ratio >= error_.min_inlier_ratio())
@@ -125,7 +126,8 @@ Registration LidarOdometry::register_at_prediction(const ScanPyramid& cloud, con
 Registration LidarOdometry::relocalised(const ScanPyramid& cloud, const PosePrior& prior,
                                         const Registration& near, bool is_measured) const {
   const LidarParams& params = matcher_.params();
-  const bool has_ended = near.end != RegistrationStatus::kMaxIterations;
+  const bool has_ended =
+      matcher_.traits().kind == ScannerKind::kPlanar || near.end != RegistrationStatus::kMaxIterations;
   const double better = near.inlier_ratio / (has_ended ? params.odometry.relocalise_below_ratio : 1);
   const Registration far =
       relocalise(map_, cloud,
@@ -198,7 +200,9 @@ void LidarOdometry::add_to_map(MatchedScan matched, const PosePrior& prior, Scan
   describe(matched.fit, result);
   result.status = ScanStatus::kRegistered;
   result.T_start_body = matched.fit.T_target_source;
-  result.covariance = step_covariance(matched.fit, prior, last_->T_map_body);
+  result.covariance = matcher_.traits().kind == ScannerKind::kPlanar
+                          ? inverse(matched.fit.posterior)
+                          : step_covariance(matched.fit, prior, last_->T_map_body);
   result.information = matcher_.observable_information(matched.fit.information);
   result.cloud = std::move(matched.cloud);
   error_.update(prediction_error, result.inlier_ratio);
