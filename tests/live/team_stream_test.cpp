@@ -62,7 +62,8 @@ TEST(TeamStream, AKeyframeFollowsTheOdometrySinceTheLastEstimate) {
   for (const OnlineKeyframe& keyframe : team.keyframes) {
     if (keyframe.robot != 0) continue;
     if (before && before->estimate == keyframe.estimate) {
-      const SE2 by_odometry = flatten(*odometry.at(before->stamp)).inverse() * flatten(*odometry.at(keyframe.stamp));
+      const SE2 by_odometry =
+          flatten(*odometry.at(before->stamp)).inverse() * flatten(*odometry.at(keyframe.stamp));
       const SE2 online = flatten(before->T_frame_body).inverse() * flatten(keyframe.T_frame_body);
       EXPECT_LT((by_odometry.inverse() * online).log().norm(), 1e-6);
     }

@@ -41,10 +41,17 @@ std::string team_columns(const Mission& mission, const StreamedTeam& team, const
   std::ostringstream text;
   text << std::fixed << std::setprecision(3);
   const OnlineEstimate* estimate = keyframe.estimate ? &team.estimates[*keyframe.estimate] : nullptr;
-  if (estimate) text << 1000 * estimate->seconds << ',' << name_of(estimate->effort) << ',';
-  else text << ",,";
+  if (estimate)
+    text << 1000 * estimate->seconds << ',' << name_of(estimate->effort) << ',';
+  else
+    text << ",,";
   text << mission.robots[keyframe.frame].id << ',';
-  if (estimate && estimate->error_m) text << *estimate->error_m;
+  if (!keyframe.estimate) return text.str();
+  for (std::size_t k = *keyframe.estimate + 1; k-- > 0;)
+    if (const auto& error_m = team.estimates[k].error_m) {
+      text << *error_m;
+      break;
+    }
   return text.str();
 }
 
@@ -66,8 +73,7 @@ std::vector<std::string> event_notes(const Mission& mission, const Streamed& str
   return notes;
 }
 
-void write_online(const std::filesystem::path& folder, const Mission& mission,
-                  const Streamed& streamed) {
+void write_online(const std::filesystem::path& folder, const Mission& mission, const Streamed& streamed) {
   const auto& robots = streamed.robots;
   std::map<std::pair<std::size_t, std::uint32_t>, const OnlineKeyframe*> keyframes;
   for (const OnlineKeyframe& keyframe : streamed.team.keyframes)

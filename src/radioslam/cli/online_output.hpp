@@ -22,8 +22,7 @@ struct Streamed {
 std::vector<std::string> event_notes(const Mission& mission, const Streamed& streamed);
 
 /// Writes `<robot>.online.tum` and online.csv (docs/formats.md, "Output").
-void write_online(const std::filesystem::path& folder, const Mission& mission,
-                  const Streamed& streamed);
+void write_online(const std::filesystem::path& folder, const Mission& mission, const Streamed& streamed);
 
 /// "720 scans, 99 % of them registered within 31 ms", a line a robot with scans; and how often
 /// the team was estimated, in what time.

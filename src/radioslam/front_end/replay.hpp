@@ -24,8 +24,8 @@ struct ReplayedPose {
 struct ReplayedRobot {
   std::vector<ReplayedPose> poses;
   std::vector<FrontEndEvent> events;
-  RobotLog log;                          ///< with amendments
-  std::vector<Stamp> known;              ///< when each of its records was said
+  RobotLog log;              ///< with amendments
+  std::vector<Stamp> known;  ///< when each of its records was said
   std::optional<TrackedScans> tracked;
   bool follows_scans = false;  ///< its poses are those of scans
   std::size_t left_out = 0;

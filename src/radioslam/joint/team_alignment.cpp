@@ -266,19 +266,18 @@ TeamAlignment<Pose> align_robots_by_fingerprints(JointGraph<Pose>& joint, const 
   return alignment;
 }
 
-#define RADIOSLAM_TEAM_ALIGNMENT(Pose)                                                                      \
-  template std::vector<int> set_components(const JointGraph<Pose>&, const std::vector<int>&,                \
-                                           TeamAlignment<Pose>&);                                           \
-  template void set_placed(TeamAlignment<Pose>&);                                                           \
-  template bool has_untied_poses(const JointGraph<Pose>&, const TeamAlignment<Pose>&);                      \
-  template void leave_out_untied_poses(JointGraph<Pose>&, const TeamAlignment<Pose>&);                      \
-  template void set_alternatives(TeamAlignment<Pose>&, const std::vector<TeamHypothesis<Pose>>&);           \
-  template bool has_radio_links(const JointGraph<Pose>&);                                                   \
-  template TeamAlignment<Pose> align_by_links(JointGraph<Pose>&, const RadioAlignmentParams&,               \
-                                              const Progress&, const TeamAlignment<Pose>*,                  \
-                                              AlignmentSearch);                                             \
-  template TeamAlignment<Pose> align_robots_by_fingerprints(                                                \
-      JointGraph<Pose>&, const Mission&, const KnownStarts&, const RadioMeasurements&, const LayoutParams&, \
+#define RADIOSLAM_TEAM_ALIGNMENT(Pose)                                                                       \
+  template std::vector<int> set_components(const JointGraph<Pose>&, const std::vector<int>&,                 \
+                                           TeamAlignment<Pose>&);                                            \
+  template void set_placed(TeamAlignment<Pose>&);                                                            \
+  template bool has_untied_poses(const JointGraph<Pose>&, const TeamAlignment<Pose>&);                       \
+  template void leave_out_untied_poses(JointGraph<Pose>&, const TeamAlignment<Pose>&);                       \
+  template void set_alternatives(TeamAlignment<Pose>&, const std::vector<TeamHypothesis<Pose>>&);            \
+  template bool has_radio_links(const JointGraph<Pose>&);                                                    \
+  template TeamAlignment<Pose> align_by_links(JointGraph<Pose>&, const RadioAlignmentParams&,                \
+                                              const Progress&, const TeamAlignment<Pose>*, AlignmentSearch); \
+  template TeamAlignment<Pose> align_robots_by_fingerprints(                                                 \
+      JointGraph<Pose>&, const Mission&, const KnownStarts&, const RadioMeasurements&, const LayoutParams&,  \
       const FieldParams&, const Progress&);
 RADIOSLAM_TEAM_ALIGNMENT(SE2)
 RADIOSLAM_TEAM_ALIGNMENT(SE3)

@@ -122,8 +122,8 @@ TeamAlignment<Pose> carried_alignment(const Correspondence& same, const TeamEsti
   now.of_segment = carried_frames(known.of_segment, of_segment);
   now.component = carried_frames(known.component, of_robot);
   now.without_matches = carried_frames(known.without_matches, of_robot);
-  now.absolute.resize(1 + static_cast<std::size_t>(
-                              *std::max_element(now.component.begin(), now.component.end())), false);
+  now.absolute.resize(
+      1 + static_cast<std::size_t>(*std::max_element(now.component.begin(), now.component.end())), false);
   const auto flags = [&](const std::vector<bool>& of) {
     std::vector<bool> carried;
     for (const auto& robot : of_robot) carried.push_back(robot && *robot < of.size() && of[*robot]);
@@ -167,7 +167,9 @@ class CarriedFactors {
     const auto& factors = before_.team.graph.relative_poses;
     std::map<std::size_t, double> scale;  // by robot
     std::map<std::pair<std::size_t, Stamp>, double> variance;
-    const auto key = [](const FactorOrigin& origin) { return std::pair(origin.robot_i.index(), origin.stamp_j); };
+    const auto key = [](const FactorOrigin& origin) {
+      return std::pair(origin.robot_i.index(), origin.stamp_j);
+    };
     for (std::size_t k = 0; k < factors.size(); ++k) {
       const FactorOrigin& origin = before_.origins.relative_poses[k];
       if (origin.source == FactorSource::kOdometry) {
@@ -279,10 +281,10 @@ std::vector<int> settled_components(const TeamEstimate<Pose>& team, double certa
   return component;
 }
 
-#define RADIOSLAM_TEAM_CONTINUATION(Pose)                                                               \
-  template void carry_values(const JointGraph<Pose>&, JointGraph<Pose>&);                               \
-  template TeamAlignment<Pose> carried_alignment(const TeamEstimate<Pose>&, const JointGraph<Pose>&);   \
-  template std::optional<TeamEstimate<Pose>> extended(const TeamEstimate<Pose>&, JointGraph<Pose>);     \
+#define RADIOSLAM_TEAM_CONTINUATION(Pose)                                                             \
+  template void carry_values(const JointGraph<Pose>&, JointGraph<Pose>&);                             \
+  template TeamAlignment<Pose> carried_alignment(const TeamEstimate<Pose>&, const JointGraph<Pose>&); \
+  template std::optional<TeamEstimate<Pose>> extended(const TeamEstimate<Pose>&, JointGraph<Pose>);   \
   template std::vector<int> settled_components(const TeamEstimate<Pose>&, double);
 RADIOSLAM_TEAM_CONTINUATION(SE2)
 RADIOSLAM_TEAM_CONTINUATION(SE3)

@@ -15,14 +15,14 @@ namespace radioslam {
 template <class Pose>
 void carry_values(const JointGraph<Pose>& before, JointGraph<Pose>& joint);
 
-/// The alignment before, of the robots and keyframes of `joint`, newly built. Robots and segments that are new
-/// have frames of their own.
+/// The alignment before, of the robots and keyframes of `joint`, newly built. Robots and segments that are
+/// new have frames of their own.
 template <class Pose>
 TeamAlignment<Pose> carried_alignment(const TeamEstimate<Pose>& before, const JointGraph<Pose>& joint);
 
-/// The estimate before with the odometry and links that were measured since, at the values carried over; links
-/// since are not weighed. `joint`: newly built, with nothing else. Nothing if there are other robots, or
-/// keyframes that were known are missing.
+/// The estimate before with the odometry and links that were measured since, at the values carried over;
+/// links since are not weighed. `joint`: newly built, with nothing else. Nothing if there are other robots,
+/// or keyframes that were known are missing.
 template <class Pose>
 std::optional<TeamEstimate<Pose>> extended(const TeamEstimate<Pose>& before, JointGraph<Pose> joint);
 

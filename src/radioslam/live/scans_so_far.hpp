@@ -1,5 +1,5 @@
-// What a robot's scans say up to a time: its keyframes with their clouds, in the odometry as it was known, and
-// the loops found among them so far.
+// What a robot's scans say up to a time: its keyframes with their clouds, in the odometry as it was known,
+// and the loops found among them so far.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace radioslam {
 
 /// A robot's keyframes as its log says them.
 struct LoggedKeyframes {
-  std::vector<StampedPose<SE3>> poses;           ///< T_start_body
+  std::vector<StampedPose<SE3>> poses;          ///< T_start_body
   std::vector<SE3::Jacobian> step_covariances;  ///< to each from the one before; of the first one, none
 
   void add(const KeyframeRecord& keyframe);

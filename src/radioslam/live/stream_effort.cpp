@@ -8,7 +8,7 @@ namespace {
 constexpr double kPeriod_s = 1, kJudgePeriod_s = 10, kContradictedPeriod_s = 3;
 constexpr double kSecondsPerKeyframe = 6e-6;  // of an extension
 constexpr double kJudgedGrowth = 1.25;        // of what is known
-constexpr std::size_t kFewLinks = 4;  // that may relate two frames
+constexpr std::size_t kFewLinks = 4;          // that may relate two frames
 constexpr double kSearchedGrowth = 1.5, kSearchedTime = 1.2;
 constexpr double kCertain = 0.99;
 

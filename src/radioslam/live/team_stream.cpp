@@ -13,14 +13,15 @@
 
 #include "radioslam/joint/team_continuation.hpp"
 #include "radioslam/live/scans_so_far.hpp"
-#include "radioslam/records/record_codec.hpp"
 #include "radioslam/records/mission_of_logs.hpp"
+#include "radioslam/records/record_codec.hpp"
 
 namespace radioslam {
 namespace {
 
 constexpr double kCertain = 0.95;  // weight from which robots share a frame
 constexpr double kMoved_m = 1, kMoved_rad = 0.1;
+constexpr double kMeasured_s = 5;  // between comparisons with the truth
 
 /// A record when it is known, by its robot.
 struct Said {
@@ -88,10 +89,11 @@ class TeamStream {
  private:
   void hear(const Said& said) {
     const std::string& bytes = robots_[said.robot].log.records[said.number];
-    log_.add(mission_.robots[said.robot].id, bytes);
     ++known_.records;
-    const auto record = decode_record(bytes);
-    if (record) std::visit([&](const auto& of) { count(said.robot, of); }, *record);
+    auto record = decode_record(bytes);
+    if (!record) return;
+    std::visit([&](const auto& of) { count(said.robot, of); }, *record);
+    logs_.add(mission_.robots[said.robot].id, *std::move(record));
   }
 
   void count(std::size_t robot, const KeyframeRecord& keyframe) {
@@ -116,22 +118,21 @@ class TeamStream {
   void consider(Stamp now) {
     if (seconds_between(considered_, now) < 1 && state_.any) return;
     considered_ = now;
-    LoggedMission logged;
     if (!due_effort(state_, now, known_, stream_)) return;
+    const auto begin = std::chrono::steady_clock::now();
+    LoggedMission logged;
     try {
-      logged = mission_of(log_);
+      logged = logs_.mission();
     } catch (const std::runtime_error&) {  // no robot has moved yet
       return;
     }
     known_.unjoined_links = unjoined_links(logged.mission);
     const auto effort = due_effort(state_, now, known_, stream_);
     if (!effort) return;
-    const auto begin = std::chrono::steady_clock::now();
     const MeasuredScans scans = *effort == Effort::kExtend ? MeasuredScans{} : scans_of(logged.mission);
     solution_ = estimate<Pose>({logged, scans}, solution_ ? &*solution_ : nullptr, *effort, params_,
                                {.lists_overlaps = false});
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     state_.weight = solution_->team.alignment.weight;
     state_.is_contradicted = fits_worse_of_late();
     state_.note(solution_->effort, now, known_);
@@ -149,12 +150,10 @@ class TeamStream {
 
   /// With the loops among each robot's scans.
   MeasuredScans scans_of(const Mission& logged) {
-    const ScanLoopSearch search{params_.scans.loops,
-                                params_.scans.lidar.map,
-                                params_.scans.search,
-                                params_.scans.lidar.registration,
-                                params_.places.descriptors,
-                                mission_.dimension == 3 ? Storeys::kSeveral : Storeys::kOne};
+    const ScanLoopSearch search{
+        params_.scans.loops,        params_.scans.lidar.map,
+        params_.scans.search,       params_.scans.lidar.registration,
+        params_.places.descriptors, mission_.dimension == 3 ? Storeys::kSeveral : Storeys::kOne};
     MeasuredScans measured;
     const auto numbers = in_mission(logged.robots);
     for (std::size_t r = 0; r < numbers.size(); ++r) {
@@ -179,8 +178,7 @@ class TeamStream {
       if (!is_aligned) continue;
       const auto& robots = solution_->team.joint.robots;
       for (std::size_t b = 0; b < robots.size(); ++b)
-        if (robots[b].id == logged.robots[r].id)
-          frame[r] = solution_->team.alignment.segments.of_segment[b];
+        if (robots[b].id == logged.robots[r].id) frame[r] = solution_->team.alignment.segments.of_segment[b];
     }
     const auto add = [&](RobotIndex i, RobotIndex j) {
       if (i.valid() && j.valid() && frame[i.index()] != frame[j.index()])
@@ -234,19 +232,24 @@ class TeamStream {
     std::map<int, std::vector<std::size_t>> members;  // robots of the graph, by component
     for (std::size_t r = 0; r < component.size(); ++r) members[component[r]].push_back(r);
     std::size_t most = 0;
+    std::vector<std::size_t> largest;
     for (const auto& [number, robots] : members) {
       // A frame that is not the graph's own starts where its first robot's odometry does.
-      const std::size_t first = *std::min_element(
-          robots.begin(), robots.end(), [&](auto a, auto b) { return numbers[a] < numbers[b]; });
+      const std::size_t first = *std::min_element(robots.begin(), robots.end(),
+                                                  [&](auto a, auto b) { return numbers[a] < numbers[b]; });
       const bool is_own = team.alignment.component[first] == number;
       const SE3 T_frame_graph = is_own ? SE3() : start_of(first, numbers[first]).inverse();
       for (const std::size_t r : robots) {
         estimate.frame[numbers[r]] = numbers[first];
         move(now, numbers[r], {numbers[first], T_frame_graph * start_of(r, numbers[r])});
       }
-      if (robots.size() <= most || !error_of_) continue;
+      if (robots.size() <= most) continue;
       most = robots.size();
-      estimate.error_m = error_of(robots);
+      largest = robots;
+    }
+    if (error_of_ && (estimate.effort != Effort::kExtend || seconds_between(measured_, now) >= kMeasured_s)) {
+      estimate.error_m = error_of(largest);
+      measured_ = now;
     }
     streamed_.estimates.push_back(std::move(estimate));
   }
@@ -256,8 +259,9 @@ class TeamStream {
     const RobotVariables& robot = solution_->team.joint.robots[r];
     const SE3 pose = as_se3(solution_->team.joint.team.graph.poses[robot.poses.back().index()], 0);
     const auto& known = keyframes_[number].poses;
-    const auto at = std::lower_bound(known.begin(), known.end(), robot.stamps.back(),
-                                     [](const auto& keyframe, Stamp stamp) { return keyframe.stamp < stamp; });
+    const auto at =
+        std::lower_bound(known.begin(), known.end(), robot.stamps.back(),
+                         [](const auto& keyframe, Stamp stamp) { return keyframe.stamp < stamp; });
     const SE3 odometry = in_dimension<Pose>(at == known.end() ? known.back().pose : at->pose);
     return pose * odometry.inverse();
   }
@@ -299,10 +303,10 @@ class TeamStream {
   const StreamParams& stream_;
   const ErrorOf& error_of_;
   const Progress& progress_;
-  TeamLog log_;
+  GrowingLogs logs_;
   KnownCounts known_;
   EffortState state_;
-  Stamp considered_;
+  Stamp considered_, measured_;
   std::vector<LoggedKeyframes> keyframes_;
   std::vector<ScansSoFar> scans_;
   std::vector<PublishedFrame> frames_;
@@ -315,9 +319,8 @@ class TeamStream {
 StreamedTeam stream_team(const Mission& mission, const std::vector<ReplayedRobot>& robots,
                          const RunParams& params, const StreamParams& stream, const ErrorOf& error_of,
                          const Progress& progress) {
-  return mission.dimension == 2
-             ? TeamStream<SE2>(mission, robots, params, stream, error_of, progress).run()
-             : TeamStream<SE3>(mission, robots, params, stream, error_of, progress).run();
+  return mission.dimension == 2 ? TeamStream<SE2>(mission, robots, params, stream, error_of, progress).run()
+                                : TeamStream<SE3>(mission, robots, params, stream, error_of, progress).run();
 }
 
 }  // namespace radioslam

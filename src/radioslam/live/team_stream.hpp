@@ -1,9 +1,9 @@
 // A recorded team as its estimate grows: what each robot's front end says, in the order of time, and the
 // team's estimate made again as more becomes known (stream_effort.hpp).
 //
-// Between two estimates a robot's pose follows its odometry. A frame is named by its first robot. Robots whose
-// alignment is ambiguous stay in frames of their own; where a frame moves, or robots come to share one, an
-// event says so.
+// Between two estimates a robot's pose follows its odometry. A frame is named by its first robot. Robots
+// whose alignment is ambiguous stay in frames of their own; where a frame moves, or robots come to share one,
+// an event says so.
 #pragma once
 
 #include <cstddef>

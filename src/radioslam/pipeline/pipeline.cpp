@@ -262,8 +262,8 @@ TeamEstimate<Pose> build_team(const RunSetup& run, const TeamGraph<Pose>* graph,
 }
 
 template <class Pose>
-TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team,
-                              const TeamEstimate<Pose>* before, AlignmentSearch search) {
+TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team, const TeamEstimate<Pose>* before,
+                              AlignmentSearch search) {
   const RunParams& params = run.params;
   JointGraph<Pose>& joint = team.joint;
   StageClock& timed = run.timed;
@@ -407,8 +407,8 @@ void add_logged_closures(const LoggedMission& logged, RunInput<Pose>& input) {
 }
 
 RunOutput estimate_all(const LoggedMission& logged, const Mission& measured, const MeasuredScans& scans,
-                   const RunParams& params, const RunOptions& options, const Progress& progress,
-                   StageClock& timed) {
+                       const RunParams& params, const RunOptions& options, const Progress& progress,
+                       StageClock& timed) {
   const auto of_dimension = [&]<class Pose>(RunInput<Pose> input) {
     add_logged_closures(logged, input);
     return run(input, params, options, progress, timed);
@@ -425,7 +425,8 @@ RunOutput estimate_all(const LoggedMission& logged, const Mission& measured, con
 template <class Pose>
 std::optional<TeamSolution<Pose>> extend(const RunSetup& run, const TeamSolution<Pose>& last) {
   constexpr int kReweighings = 2;
-  auto team = extended(last.team, build_joint_graph<Pose>(run.mission, run.params.keyframe, run.params.graph));
+  auto team =
+      extended(last.team, build_joint_graph<Pose>(run.mission, run.params.keyframe, run.params.graph));
   if (!team) return std::nullopt;
   const bool has_links = has_radio_links(team->joint) && !team->alignment.segments.of_segment.empty();
   for (int round = 0; round < kReweighings; ++round) {
@@ -465,19 +466,19 @@ TeamSolution<Pose> estimate(const TeamView& view, const TeamSolution<Pose>* last
   }
   const bool has_grown = !continues || static_cast<double>(fingerprints_of(recorded)) >
                                            kRefitGrowth * static_cast<double>(last->radio->nodes.size());
-  const auto radio = has_grown ? std::make_shared<const RadioMeasurements>(
-                                     measure_radio(recorded, params.radio, progress))
-                               : last->radio;
+  const auto radio =
+      has_grown ? std::make_shared<const RadioMeasurements>(measure_radio(recorded, params.radio, progress))
+                : last->radio;
   const auto known = use_known_access_points(recorded, *radio, params.access_points);
   const Mission& mission = known.mission ? *known.mission : recorded;
   const MapWitness maps(mission, input.scans);
   const RunSetup run{mission, *radio, params, options, progress, timed, &maps};
   const bool searches = !last || effort == Effort::kAlign;
-  auto aligned = align_team<Pose>(run, build_team<Pose>(run, nullptr, input.scans),
-                                  last ? &last->team : nullptr,
-                                  searches ? AlignmentSearch::kAll : AlignmentSearch::kNearKnown);
-  auto judged = judge_with_places(run, aligned, input.scans,
-                                  continues ? *last->places : RecognisedPlaces{}, 1, input.places);
+  auto aligned =
+      align_team<Pose>(run, build_team<Pose>(run, nullptr, input.scans), last ? &last->team : nullptr,
+                       searches ? AlignmentSearch::kAll : AlignmentSearch::kNearKnown);
+  auto judged = judge_with_places(run, aligned, input.scans, continues ? *last->places : RecognisedPlaces{},
+                                  1, input.places);
   return {std::move(judged.judged.team), radio,
           std::make_shared<const RecognisedPlaces>(std::move(judged.places)),
           searches ? Effort::kAlign : Effort::kJudge};
@@ -536,16 +537,16 @@ RunOutput run_pipeline(const Mission& mission, const TeamGraph<Pose>& team, cons
   return output;
 }
 
-#define RADIOSLAM_PIPELINE(Pose)                                                                         \
-  template RunOutput run_pipeline(const Mission&, const TeamGraph<Pose>&, const RunParams&,              \
-                                  const RunOptions&, const Progress&);                                   \
-  template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, const MeasuredScans&); \
-  template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>, const TeamEstimate<Pose>*,  \
-                                         AlignmentSearch);                                               \
-  template JudgedTeam<Pose> judge_closures(const RunSetup&, TeamEstimate<Pose>,                          \
-                                           const std::vector<VerifiedClosure>&);                         \
-  template TeamSolution<Pose> estimate(const TeamView&, const TeamSolution<Pose>*, Effort,               \
-                                       const RunParams&, const RunOptions&, const Progress&);
+#define RADIOSLAM_PIPELINE(Pose)                                                                             \
+  template RunOutput run_pipeline(const Mission&, const TeamGraph<Pose>&, const RunParams&,                  \
+                                  const RunOptions&, const Progress&);                                       \
+  template TeamEstimate<Pose> build_team(const RunSetup&, const TeamGraph<Pose>*, const MeasuredScans&);     \
+  template TeamEstimate<Pose> align_team(const RunSetup&, TeamEstimate<Pose>, const TeamEstimate<Pose>*,     \
+                                         AlignmentSearch);                                                   \
+  template JudgedTeam<Pose> judge_closures(const RunSetup&, TeamEstimate<Pose>,                              \
+                                           const std::vector<VerifiedClosure>&);                             \
+  template TeamSolution<Pose> estimate(const TeamView&, const TeamSolution<Pose>*, Effort, const RunParams&, \
+                                       const RunOptions&, const Progress&);
 RADIOSLAM_PIPELINE(SE2)
 RADIOSLAM_PIPELINE(SE3)
 #undef RADIOSLAM_PIPELINE

@@ -20,7 +20,7 @@ constexpr double kLeastUnknown_m = 1;
 /// One robot's records, decoded.
 struct RobotRecords {
   std::string id;
-  std::vector<Record> records;
+  DecodedRecords records;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> gaps;
 };
 
@@ -110,24 +110,27 @@ bool are_numbered(const std::vector<RobotRecords>& robots) {
 }
 
 /// Gives keyframes the motion that the robot last said.
-void amend(std::vector<Record>& records) {
+void amend(DecodedRecords& records) {
   std::map<std::uint32_t, AmendedStep> amended;
-  for (const Record& record : records)
-    if (const auto* of = std::get_if<AmendmentRecord>(&record))
+  for (const auto& record : records)
+    if (const auto* of = std::get_if<AmendmentRecord>(record.get()))
       for (std::size_t k = 0; k < of->steps.size(); ++k)
         amended[of->first + static_cast<std::uint32_t>(k)] = of->steps[k];
-  for (Record& record : records)
-    if (auto* keyframe = std::get_if<KeyframeRecord>(&record))
-      if (const auto found = amended.find(keyframe->number); found != amended.end()) {
-        keyframe->T_before_this = found->second.T_before_this;
-        keyframe->covariance = found->second.covariance;
+  if (amended.empty()) return;
+  for (auto& record : records)
+    if (const auto* said = std::get_if<KeyframeRecord>(record.get()))
+      if (const auto found = amended.find(said->number); found != amended.end()) {
+        KeyframeRecord keyframe = *said;
+        keyframe.T_before_this = found->second.T_before_this;
+        keyframe.covariance = found->second.covariance;
+        record = std::make_shared<const Record>(std::move(keyframe));
       }
 }
 
 template <class Kind, class Take>
 void for_each(const RobotRecords& robot, const Take& take) {
   for (std::size_t n = 0; n < robot.records.size(); ++n)
-    if (const auto* record = std::get_if<Kind>(&robot.records[n])) take(*record, n);
+    if (const auto* record = std::get_if<Kind>(robot.records[n].get())) take(*record, n);
 }
 
 /// Indices in the mission.
@@ -282,12 +285,14 @@ class MissionBuilder {
     for (const auto& [id, log] : team.robots()) {
       RobotRecords& robot = robots_.emplace_back(RobotRecords{id, {}, log.gaps()});
       for (const auto& [number, bytes] : log.records)
-        if (auto record = decode_record(bytes)) robot.records.push_back(*std::move(record));
-      amend(robot.records);
+        if (auto record = decode_record(bytes))
+          robot.records.push_back(std::make_shared<const Record>(*std::move(record)));
     }
-    if (are_numbered(robots_))
-      std::stable_sort(robots_.begin(), robots_.end(),
-                       [](const auto& a, const auto& b) { return a.id.size() < b.id.size(); });
+    prepare();
+  }
+  explicit MissionBuilder(const std::map<std::string, DecodedRecords>& team) {
+    for (const auto& [id, records] : team) robots_.push_back({id, records, {}});
+    prepare();
   }
 
   LoggedMission build() {
@@ -303,6 +308,13 @@ class MissionBuilder {
   }
 
  private:
+  void prepare() {
+    for (RobotRecords& robot : robots_) amend(robot.records);
+    if (are_numbered(robots_))
+      std::stable_sort(robots_.begin(), robots_.end(),
+                       [](const auto& a, const auto& b) { return a.id.size() < b.id.size(); });
+  }
+
   void note(const RobotRecords& robot, const std::string& text) {
     result_.notes.push_back("log of robot " + robot.id + ": " + text);
   }
@@ -384,12 +396,12 @@ class MissionBuilder {
       const auto pose = chain.pose(at);
       if (pose && at.stamp < chain.poses().back().stamp) rows.push_back({at.stamp, *pose});
     };
-    for (const Record& record : of.records)
+    for (const auto& record : of.records)
       std::visit(
           [&](const auto& of_kind) {
             if constexpr (requires { of_kind.at; }) add(of_kind.at);
           },
-          record);
+          *record);
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
     rows.erase(std::unique(rows.begin(), rows.end(),
@@ -409,6 +421,12 @@ class MissionBuilder {
 }  // namespace
 
 LoggedMission mission_of(const TeamLog& team) { return MissionBuilder(team).build(); }
+
+void GrowingLogs::add(const std::string& robot, Record record) {
+  robots_[robot].push_back(std::make_shared<const Record>(std::move(record)));
+}
+
+LoggedMission GrowingLogs::mission() const { return MissionBuilder(robots_).build(); }
 
 namespace {
 

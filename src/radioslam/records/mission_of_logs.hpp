@@ -1,6 +1,8 @@
 // The mission that the logs of a team describe.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,20 @@ struct LoggedMission {
 /// or keyframes that are not known are left out. Throws std::runtime_error with one line if the logs do not
 /// make a mission: no robot with two keyframes, or robots of missions of different dimensions.
 LoggedMission mission_of(const TeamLog& team);
+
+using DecodedRecords = std::vector<std::shared_ptr<const Record>>;
+
+/// Logs of a team as their records come, each decoded once.
+class GrowingLogs {
+ public:
+  /// The robot's next record.
+  void add(const std::string& robot, Record record);
+  /// As mission_of() their log.
+  LoggedMission mission() const;
+
+ private:
+  std::map<std::string, DecodedRecords> robots_;
+};
 
 /// The mission as its robots' logs describe it, in its own order of robots and with what no log says: raw
 /// recordings, names, and fixes outside the odometry, whose clock may be another. A robot of which no log can

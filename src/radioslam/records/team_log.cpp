@@ -137,11 +137,6 @@ void TeamLog::add(const RobotLog& own) {
   for (std::size_t k = 0; k < own.records.size(); ++k) log.records.emplace(k, own.records[k]);
 }
 
-void TeamLog::add(const std::string& robot, std::string record) {
-  auto& records = robots_[robot].records;
-  records.emplace_hint(records.end(), records.empty() ? 0 : records.rbegin()->first + 1, std::move(record));
-}
-
 Acceptance TeamLog::accept(std::string_view bytes) {
   Acceptance acceptance;
   const auto refuse = [&](std::string why) {

@@ -58,8 +58,6 @@ class TeamLog {
   Acceptance accept(std::string_view bytes);
   /// Takes the whole log of a robot from the robot itself, unchecked.
   void add(const RobotLog& own);
-  /// Takes the robot's next record, from the robot itself, unchecked.
-  void add(const std::string& robot, std::string record);
 
   /// By the robots' names.
   const std::map<std::string, KnownLog>& robots() const { return robots_; }

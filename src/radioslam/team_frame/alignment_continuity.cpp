@@ -70,11 +70,11 @@ RadioAlignment<Pose> continued(const TeamGraph<Pose>& team, RadioAlignment<Pose>
   return found;
 }
 
-#define RADIOSLAM_ALIGNMENT_CONTINUITY(Pose)                                                              \
-  template bool agree(const std::vector<Pose>&, const std::vector<Pose>&,                                \
-                      const std::vector<TrajectorySegment>&, const std::vector<int>&,                    \
-                      const std::vector<double>&);                                                       \
-  template RadioAlignment<Pose> continued(const TeamGraph<Pose>&, RadioAlignment<Pose>,                  \
+#define RADIOSLAM_ALIGNMENT_CONTINUITY(Pose)                                            \
+  template bool agree(const std::vector<Pose>&, const std::vector<Pose>&,               \
+                      const std::vector<TrajectorySegment>&, const std::vector<int>&,   \
+                      const std::vector<double>&);                                      \
+  template RadioAlignment<Pose> continued(const TeamGraph<Pose>&, RadioAlignment<Pose>, \
                                           const RadioAlignment<Pose>&, const RadioAlignmentParams&);
 RADIOSLAM_ALIGNMENT_CONTINUITY(SE2)
 RADIOSLAM_ALIGNMENT_CONTINUITY(SE3)

@@ -36,10 +36,7 @@ class LoopCandidates {
  public:
   /// Keeps a reference to `keyframes`, which must outlive it. `tried`: of the same keyframes before.
   LoopCandidates(const ScanKeyframes& keyframes, const ScanLoopParams& params, TriedPairs tried = {})
-      : keyframes_(keyframes),
-        params_(params),
-        path_m_(path_lengths(keyframes)),
-        tried_(std::move(tried)) {}
+      : keyframes_(keyframes), params_(params), path_m_(path_lengths(keyframes)), tried_(std::move(tried)) {}
 
   /// By this estimate of the keyframes' poses. Pairs that were candidates before are left out unless they
   /// were doubtful and are predicted much better now.

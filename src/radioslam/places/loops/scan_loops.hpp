@@ -40,7 +40,8 @@ struct ScanLoopSearch {
 };
 
 /// `before`: the loops of the first of these keyframes, when the robot had no more; what was tried then is
-/// tried again only where it is predicted much better now, and what contradicted the others may hold. Null: there are none.
+/// tried again only where it is predicted much better now, and what contradicted the others may hold. Null:
+/// there are none.
 ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch& search,
                            const Progress& progress = {}, const ScanLoops* before = nullptr);
 
