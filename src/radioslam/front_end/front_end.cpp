@@ -118,6 +118,7 @@ void FrontEnd::follow_scans() {
                        [](Stamp at, const ScanPose& scan) { return at < scan.stamp; });
   for (auto k = static_cast<std::size_t>(later - track->poses.begin()); k < track->poses.size(); ++k)
     add_pose_of(*track, k);
+  if (auto again = scans_.revised()) amend(odometry_from_scans(Robot(), *again, params_.stage));
 }
 
 /// By its motion since the scan before: what was said does not jump where the track is another one.

@@ -5,7 +5,8 @@
 //   scans     are tracked with what else moves with them (odometry/scan_front_end.hpp); without a scanner the
 //             recorded odometry is the robot's
 //   log       keyframes and what was measured from them, as they become final (records/log_builder.hpp)
-//   finish    what hindsight makes of the motion is amended: an IMU trusted late, the smoothed trajectory
+//   amend     what the robot changes its mind about: an IMU that turns out to agree or not, the motion smoothed
+//             with it, at the end all that hindsight makes of it
 // Causal, and the same however the samples are ordered within kLate_s.
 #pragma once
 

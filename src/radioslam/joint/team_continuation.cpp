@@ -166,14 +166,14 @@ class CarriedFactors {
   void add_relative_poses() {
     const auto& factors = before_.team.graph.relative_poses;
     std::map<std::size_t, double> scale;  // by robot
-    std::map<std::pair<std::size_t, Stamp>, double> variance;
+    std::map<std::pair<std::size_t, Stamp>, const RelativePoseFactor<Pose>*> steps;
     const auto key = [](const FactorOrigin& origin) {
       return std::pair(origin.robot_i.index(), origin.stamp_j);
     };
     for (std::size_t k = 0; k < factors.size(); ++k) {
       const FactorOrigin& origin = before_.origins.relative_poses[k];
       if (origin.source == FactorSource::kOdometry) {
-        variance.emplace(key(origin), factors[k].information(0, 0));
+        steps.emplace(key(origin), &factors[k]);
         continue;
       }
       RelativePoseFactor<Pose> factor = factors[k];
@@ -184,9 +184,12 @@ class CarriedFactors {
     auto& graph = joint_.team.graph;
     for (std::size_t k = 0; k < graph.relative_poses.size(); ++k) {
       const FactorOrigin& origin = joint_.origins.relative_poses[k];
-      const auto known = variance.find(key(origin));
-      if (known == variance.end() || !(graph.relative_poses[k].information(0, 0) > 0)) continue;
-      scale.emplace(origin.robot_i.index(), known->second / graph.relative_poses[k].information(0, 0));
+      const RelativePoseFactor<Pose>& now = graph.relative_poses[k];
+      const auto known = steps.find(key(origin));
+      const bool is_amended =
+          known == steps.end() || !(known->second->T_i_j.inverse() * now.T_i_j).log().isZero();
+      if (is_amended || !(now.information(0, 0) > 0)) continue;
+      scale.emplace(origin.robot_i.index(), known->second->information(0, 0) / now.information(0, 0));
     }
     for (std::size_t k = 0; k < graph.relative_poses.size(); ++k)
       if (const auto of = scale.find(joint_.origins.relative_poses[k].robot_i.index()); of != scale.end())

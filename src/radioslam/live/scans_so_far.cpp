@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <utility>
 
-#include "radioslam/geometry/uncertain_pose.hpp"
-
 namespace radioslam {
 
 void LoggedKeyframes::add(const KeyframeRecord& keyframe) {
-  const SE3 before = poses.empty() ? SE3() : poses.back().pose;
-  if (!poses.empty()) step_covariances.push_back(keyframe.covariance.value_or(SE3::Jacobian::Zero()));
-  poses.push_back({keyframe.stamp, before * keyframe.T_before_this});
+  const SE3 before = said.empty() ? SE3() : said.back().pose;
+  said.push_back({keyframe.stamp, before * keyframe.T_before_this});
+  steps.push_back({keyframe.T_before_this, keyframe.covariance.value_or(SE3::Jacobian::Zero())});
+}
+
+void LoggedKeyframes::add(const AmendmentRecord& amendment) {
+  for (std::size_t k = 0; k < amendment.steps.size() && amendment.first + k < steps.size(); ++k) {
+    const AmendedStep& step = amendment.steps[k];
+    steps[amendment.first + k] = {step.T_before_this, step.covariance.value_or(SE3::Jacobian::Zero())};
+  }
 }
 
 ScansSoFar::ScansSoFar(const ReplayedRobot& robot) {
@@ -21,7 +26,7 @@ ScansSoFar::ScansSoFar(const ReplayedRobot& robot) {
 }
 
 bool ScansSoFar::has_any(const LoggedKeyframes& known) const {
-  return !stamps_.empty() && !known.poses.empty() && stamps_.front() <= known.poses.back().stamp;
+  return !stamps_.empty() && !known.said.empty() && stamps_.front() <= known.said.back().stamp;
 }
 
 ScanOdometry ScansSoFar::update(const LoggedKeyframes& known, const ScanLoopSearch& search,
@@ -31,19 +36,20 @@ ScanOdometry ScansSoFar::update(const LoggedKeyframes& known, const ScanLoopSear
   of.nominal_inlier_ratio = all_.nominal_inlier_ratio;
   of.spacing_m = all_.spacing_m;
   of.kind = all_.kind;
+  SE3 pose;
   UncertainPose<SE3> step;
   std::size_t next = 0;
-  for (std::size_t k = 0; k < known.poses.size(); ++k) {
-    if (k > 0)
-      step = step * UncertainPose<SE3>{known.poses[k - 1].pose.inverse() * known.poses[k].pose,
-                                       known.step_covariances[k - 1]};
-    while (next < stamps_.size() && stamps_[next] < known.poses[k].stamp) ++next;
-    if (next == stamps_.size() || stamps_[next] != known.poses[k].stamp) continue;
+  for (std::size_t k = 0; k < known.said.size(); ++k) {
+    pose = pose * known.steps[k].pose;
+    step = step * known.steps[k];
+    const Stamp stamp = known.said[k].stamp;
+    while (next < stamps_.size() && stamps_[next] < stamp) ++next;
+    if (next == stamps_.size() || stamps_[next] != stamp) continue;
     if (!of.poses.empty()) of.step_covariances.push_back(step.covariance);
     step = {};
-    of.poses.push_back(known.poses[k].pose);
+    of.poses.push_back(pose);
     of.clouds.push_back(all_.clouds[next]);
-    scans.keyframe_stamps.push_back(stamps_[next]);
+    scans.keyframe_stamps.push_back(stamp);
   }
   loops_ = close_scan_loops(of, search, progress, &loops_);
   if (!loops_.loops.empty()) scans.corrected = loops_.poses;

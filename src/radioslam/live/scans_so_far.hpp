@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "radioslam/front_end/replay.hpp"
+#include "radioslam/geometry/uncertain_pose.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/places/loops/scan_loops.hpp"
 #include "radioslam/records/record.hpp"
@@ -14,10 +15,11 @@ namespace radioslam {
 
 /// A robot's keyframes as its log says them.
 struct LoggedKeyframes {
-  std::vector<StampedPose<SE3>> poses;          ///< T_start_body
-  std::vector<SE3::Jacobian> step_covariances;  ///< to each from the one before; of the first one, none
+  std::vector<StampedPose<SE3>> said;     ///< T_start_body, as it was said first: its frame does not jump
+  std::vector<UncertainPose<SE3>> steps;  ///< to each from the one before, with amendments
 
   void add(const KeyframeRecord& keyframe);
+  void add(const AmendmentRecord& amendment);
 };
 
 class ScansSoFar {

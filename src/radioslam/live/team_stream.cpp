@@ -104,9 +104,10 @@ class TeamStream {
     if (!streamed_.estimates.empty()) estimate = streamed_.estimates.size() - 1;
     const PublishedFrame& frame = frames_[robot];
     streamed_.keyframes.push_back({robot, keyframe.number, keyframe.stamp,
-                                   frame.T_frame_start * in_dimension<Pose>(known.poses.back().pose),
+                                   frame.T_frame_start * in_dimension<Pose>(known.said.back().pose),
                                    frame.frame, estimate});
   }
+  void count(std::size_t robot, const AmendmentRecord& amendment) { keyframes_[robot].add(amendment); }
   void count(std::size_t, const RangeRecord&) { ++known_.links; }
   void count(std::size_t, const AnglesRecord&) { ++known_.links; }
   void count(std::size_t, const FingerprintRecord&) { ++known_.fingerprints; }
@@ -258,7 +259,7 @@ class TeamStream {
   SE3 start_of(std::size_t r, std::size_t number) const {
     const RobotVariables& robot = solution_->team.joint.robots[r];
     const SE3 pose = as_se3(solution_->team.joint.team.graph.poses[robot.poses.back().index()], 0);
-    const auto& known = keyframes_[number].poses;
+    const auto& known = keyframes_[number].said;
     const auto at =
         std::lower_bound(known.begin(), known.end(), robot.stamps.back(),
                          [](const auto& keyframe, Stamp stamp) { return keyframe.stamp < stamp; });
@@ -274,7 +275,7 @@ class TeamStream {
       say(to.frame == robot ? "robot " + id + " is in a frame of its own again: its alignment is ambiguous"
                             : "robot " + id + " is in the frame of robot " + mission_.robots[to.frame].id);
     } else if (robot != to.frame) {
-      const SE3 odometry = in_dimension<Pose>(keyframes_[robot].poses.back().pose);
+      const SE3 odometry = in_dimension<Pose>(keyframes_[robot].said.back().pose);
       const SE3 moved = (frame.T_frame_start * odometry).inverse() * (to.T_frame_start * odometry);
       const double m = moved.translation().norm(), rad = moved.log().template tail<3>().norm();
       if (m > kMoved_m || rad > kMoved_rad)

@@ -15,6 +15,7 @@ bool ImuGate::test(const std::vector<ScanPose>& scans, const std::vector<ImuSamp
   if (seconds_between(*last_test_, now) < kTestEvery_s) return false;
   last_test_ = now;
   auto wrong = inconsistency(scans, samples);
+  right_ = wrong ? 0 : right_ + 1;
   if (std::exchange(was_wrong_, wrong.has_value()) && wrong) {
     reject(std::move(*wrong));
     return true;

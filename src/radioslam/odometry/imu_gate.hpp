@@ -1,6 +1,7 @@
 // Whether a robot's IMU may be used, decided on the way (inertial/imu_consistency.hpp).
 //
-//   untested   until `check_s` of scans, registered without it, agree with it
+//   untested   until `check_s` of scans, registered without it, agree with it. It agrees so far after two tests
+//              without anything wrong
 //   trusted    tested again and again on the last `check_s`
 //   rejected   two tests one after the other found it wrong; for good
 // A test takes place every kTestEvery_s. What is wrong with units or mounting shows in the first of them.
@@ -26,6 +27,8 @@ class ImuGate {
   explicit ImuGate(const InertialParams& params) : params_(params) {}
 
   ImuTrust trust() const { return trust_; }
+  /// Whether nothing was wrong in the last two tests.
+  bool agrees_so_far() const { return right_ >= 2; }
   /// Why it was rejected, in words that follow a robot's name.
   const std::string& reason() const { return reason_; }
 
@@ -47,6 +50,7 @@ class ImuGate {
   std::string reason_;
   std::optional<Stamp> first_, last_test_;
   bool was_wrong_ = false;  ///< in the last test
+  int right_ = 0;           ///< tests without anything wrong, one after the other
 };
 
 }  // namespace radioslam

@@ -89,8 +89,25 @@ ScanTrajectory ScanFrontEnd::take_track() {
 }
 
 const ScanTrajectory* ScanFrontEnd::track() const {
-  if (alone_) return &alone_->track();
-  return with_imu_ ? &with_imu_->track() : nullptr;
+  if (uses_imu()) return &with_imu_->track();
+  return alone_ ? &alone_->track() : nullptr;
+}
+
+std::optional<ScanTrajectory> ScanFrontEnd::revised() {
+  constexpr double kGrowth = 1.25;
+  constexpr std::size_t kMinPoses = 50;
+  const bool has_changed = uses_imu() != has_used_imu_;
+  const auto poses = track() ? track()->poses.size() : 0;
+  const bool has_grown =
+      poses >= kMinPoses && static_cast<double>(poses) > kGrowth * static_cast<double>(revised_poses_);
+  if (!(has_changed || (uses_imu() && has_grown))) return std::nullopt;
+  has_used_imu_ = uses_imu();
+  revised_poses_ = poses;
+  ScanTrajectory again;
+  again.poses = track()->poses;
+  again.is_level = track()->is_level;
+  if (uses_imu()) smooth_with_imu(again, history_.inertial(), params_.inertial);
+  return again;
 }
 
 void ScanFrontEnd::advance(Stamp stamp) {
@@ -131,7 +148,8 @@ void ScanFrontEnd::register_scan(WaitingScan scan) {
   history_.update();
   if (alone_ && with_imu_) with_imu_->add(scan.stamp, scan.scan);
   (alone_ ? *alone_ : *with_imu_).add(scan.stamp, std::move(scan.scan));
-  if (gate_ && gate_->test(track()->poses, history_.inertial())) follow_gate();
+  const ScanTracker& tested = alone_ ? *alone_ : *with_imu_;
+  if (gate_ && gate_->test(tested.track().poses, history_.inertial())) follow_gate();
   const auto by_alone = newest(alone_), by_imu = newest(with_imu_);
   if (by_alone || by_imu) history_.forget_before(std::min(by_alone.value_or(now_), by_imu.value_or(now_)));
 }

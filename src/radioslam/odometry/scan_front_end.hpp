@@ -3,7 +3,8 @@
 // A scan is registered once its sweep is over and every source of motion has passed the end of it, or sends
 // nothing for the time of two scans. The first kTraitScans scans, or those of kStart_s, wait for each other:
 // they show what scanner it is. While the IMU is untested (imu_gate.hpp), the scans are tracked twice,
-// without and with it, and the former is the estimate; what the latter makes of it later is a change of mind.
+// without and with it. The former is the estimate until the IMU agrees so far; from then on it is the latter,
+// and smoothed with the IMU it is said again as it grows. Either is a change of mind.
 // Causal: what is known at a time depends on the samples until then alone, in whatever pieces they came.
 #pragma once
 
@@ -56,6 +57,8 @@ class ScanFrontEnd {
 
   /// As known now; nothing before the first scan is registered.
   const ScanTrajectory* track() const;
+  /// The poses again, where the robot has changed its mind since the last call.
+  std::optional<ScanTrajectory> revised();
 
   /// No more samples come: registers what waits.
   void register_waiting();
@@ -77,6 +80,7 @@ class ScanFrontEnd {
   ScanTrajectory take_track();
   void register_scan(WaitingScan scan);
   void follow_gate();
+  bool uses_imu() const { return with_imu_ && (!alone_ || gate_->agrees_so_far()); }
   void say(std::string what) { events_.push_back({now_, std::move(what)}); }
 
   const ScanParams& params_;
@@ -90,6 +94,8 @@ class ScanFrontEnd {
   Stamp now_, last_odometry_;
   std::optional<ScannerTraits> traits_;
   std::optional<ScanTracker> alone_, with_imu_;  ///< one or, while the IMU is untested, both
+  bool has_used_imu_ = false;                    ///< when it was revised
+  std::size_t revised_poses_ = 0;                ///< then
   std::vector<FrontEndEvent> events_;
 };
 
