@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -57,19 +58,26 @@ std::string team_columns(const Mission& mission, const StreamedTeam& team, const
 
 }  // namespace
 
-std::vector<std::string> event_notes(const Mission& mission, const Streamed& streamed) {
-  const auto& robots = streamed.robots;
-  std::vector<std::pair<Stamp, std::string>> events;
-  for (std::size_t r = 0; r < robots.size(); ++r)
-    for (const FrontEndEvent& event : robots[r].events)
-      events.emplace_back(event.stamp, "robot " + mission.robots[r].id + ", at " + seconds_text(event.stamp) +
-                                           " s: " + event.what);
-  for (const FrontEndEvent& event : streamed.team.events)
-    events.emplace_back(event.stamp, "at " + seconds_text(event.stamp) + " s: " + event.what);
-  std::stable_sort(events.begin(), events.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+StreamResult stream_result(const Mission& mission, const Streamed& streamed) {
+  StreamResult result;
+  for (const OnlineEstimate& estimate : streamed.team.estimates) {
+    const std::set<std::size_t> frames(estimate.frame.begin(), estimate.frame.end());
+    result.estimates.push_back({estimate.at, name_of(estimate.effort), frames.size(), estimate.error_m});
+  }
+  for (std::size_t r = 0; r < streamed.robots.size(); ++r)
+    for (const FrontEndEvent& event : streamed.robots[r].events)
+      result.events.push_back({event.stamp, "robot " + mission.robots[r].id + ": " + event.what});
+  for (const TeamEvent& event : streamed.team.events)
+    result.events.push_back({event.at, event.what, event.is_join});
+  std::stable_sort(result.events.begin(), result.events.end(),
+                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  return result;
+}
+
+std::vector<std::string> event_notes(const StreamResult& stream) {
   std::vector<std::string> notes;
-  for (auto& [stamp, note] : events) notes.push_back(std::move(note));
+  for (const auto& event : stream.events)
+    notes.push_back("at " + seconds_text(event.at) + " s: " + event.what);
   return notes;
 }
 

@@ -9,6 +9,7 @@
 #include "radioslam/front_end/replay.hpp"
 #include "radioslam/live/team_stream.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/results/stream_result.hpp"
 
 namespace radioslam::cli {
 
@@ -18,11 +19,12 @@ struct Streamed {
   StreamedTeam team;
 };
 
-/// Of all robots and of the team, in time order.
-std::vector<std::string> event_notes(const Mission& mission, const Streamed& streamed);
-
 /// Writes `<robot>.online.tum` and online.csv (docs/formats.md, "Output").
 void write_online(const std::filesystem::path& folder, const Mission& mission, const Streamed& streamed);
+
+/// Of all robots and of the team, for the report.
+StreamResult stream_result(const Mission& mission, const Streamed& streamed);
+std::vector<std::string> event_notes(const StreamResult& stream);
 
 /// "720 scans, 99 % of them registered within 31 ms", a line a robot with scans; and how often
 /// the team was estimated, in what time.

@@ -270,7 +270,9 @@ class TeamStream {
   void move(Stamp now, std::size_t robot, const PublishedFrame& to) {
     PublishedFrame& frame = frames_[robot];
     const std::string& id = mission_.robots[robot].id;
-    const auto say = [&](const std::string& what) { streamed_.events.push_back({now, what}); };
+    const auto say = [&](const std::string& what) {
+      streamed_.events.push_back({now, what, frame.frame != to.frame});
+    };
     if (frame.frame != to.frame) {
       say(to.frame == robot ? "robot " + id + " is in a frame of its own again: its alignment is ambiguous"
                             : "robot " + id + " is in the frame of robot " + mission_.robots[to.frame].id);

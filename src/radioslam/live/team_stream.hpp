@@ -42,10 +42,16 @@ struct OnlineEstimate {
   std::optional<double> error_m{};  ///< of the frame with the most robots; where the truth is known
 };
 
+struct TeamEvent {
+  Stamp at;
+  std::string what;
+  bool is_join = false;  ///< a robot comes into another frame
+};
+
 struct StreamedTeam {
   std::vector<OnlineKeyframe> keyframes;  ///< in the order in which they were said
   std::vector<OnlineEstimate> estimates;
-  std::vector<FrontEndEvent> events;
+  std::vector<TeamEvent> events;
 };
 
 /// Position error of trajectories in one frame against the truth, RMSE in metres; nothing without.

@@ -237,6 +237,20 @@ void add_run(PageData& page, const RunResult& result, const ReportParams& params
   page["notes"] = note_data(result);
 }
 
+/// {"estimates": [{"t", "effort", "frames", "error_m"}], "events": [{"t", "what", "join"}]}
+PageData stream_data(const StreamResult& stream, Stamp start) {
+  const auto time = [&](Stamp at) { return rounded_seconds(seconds_between(start, at)); };
+  PageData estimates = PageData::array(), events = estimates;
+  for (const auto& estimate : stream.estimates)
+    estimates.push_back({{"t", time(estimate.at)},
+                         {"effort", estimate.effort},
+                         {"frames", estimate.frames},
+                         {"error_m", estimate.error_m ? rounded_metres(*estimate.error_m) : PageData()}});
+  for (const auto& event : stream.events)
+    events.push_back({{"t", time(event.at)}, {"what", event.what}, {"join", event.is_join}});
+  return {{"estimates", std::move(estimates)}, {"events", std::move(events)}};
+}
+
 PageData page_data(const RunResult& result, const Truth* truth, const std::optional<TeamMetrics>& metrics,
                    const ClosuresByKind& compared_closures, const ReportParams& params) {
   PageData page{{"format", "radioslam-report/1"},
@@ -270,8 +284,10 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
 
 std::string render_report(const RunResult& result, const Truth* truth,
                           const std::optional<TeamMetrics>& metrics, const ClosuresByKind& compared_closures,
-                          const ReportParams& params) {
-  return embed_data(page_head(), page_data(result, truth, metrics, compared_closures, params), page_tail());
+                          const ReportParams& params, const StreamResult* stream) {
+  PageData page = page_data(result, truth, metrics, compared_closures, params);
+  if (stream) page["stream"] = stream_data(*stream, first_stamp(result));
+  return embed_data(page_head(), page, page_tail());
 }
 
 }  // namespace radioslam

@@ -11,14 +11,16 @@
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/report/report_params.hpp"
 #include "radioslam/results/results.hpp"
+#include "radioslam/results/stream_result.hpp"
 
 namespace radioslam {
 
 /// The page. `truth` may be null; with `truth` and `metrics` the map is drawn in the truth's frame (through
 /// metrics->T_truth_estimate), and dead reckoning is evaluated as well, after its own alignment.
-/// `compared_closures` are shown beside the closures.
+/// `compared_closures` are shown beside the closures; `stream`, of a streamed mission, may be null.
 std::string render_report(const RunResult& result, const Truth* truth = nullptr,
                           const std::optional<TeamMetrics>& metrics = std::nullopt,
-                          const ClosuresByKind& compared_closures = {}, const ReportParams& params = {});
+                          const ClosuresByKind& compared_closures = {}, const ReportParams& params = {},
+                          const StreamResult* stream = nullptr);
 
 }  // namespace radioslam

@@ -63,7 +63,8 @@ Agreement evaluate(const RunResult& result, const MissionInput& given) {
 }
 
 /// `given`: the input without its recordings and its graph.
-RunDocuments documents_of(const RunOutput& run, const MissionInput& given, const Agreement& agreement) {
+RunDocuments documents_of(const RunOutput& run, const MissionInput& given, const Agreement& agreement,
+                          const StreamResult* stream) {
   RunDocuments documents;
   if (agreement.metrics) {
     documents.metrics = metrics_json(*agreement.metrics);
@@ -73,7 +74,7 @@ RunDocuments documents_of(const RunOutput& run, const MissionInput& given, const
       [&](const auto& graph) { return format_g2o(with_ids(graph, given.pose_ids, given.point_ids)); },
       run.graph);
   documents.report_html = render_report(run.result, given.truth.empty() ? nullptr : &given.truth,
-                                        agreement.metrics, agreement.closures);
+                                        agreement.metrics, agreement.closures, {}, stream);
   return documents;
 }
 
@@ -159,7 +160,8 @@ void run_mission(const RunArguments& options) {
   const MissionInput given = for_evaluation(input);
   const auto scanned = scans_of(input.mission);
   Streamed streamed = stream(input.mission, params, given.truth, options);
-  append(notes, event_notes(given.mission, streamed));
+  const StreamResult events = stream_result(given.mission, streamed);
+  append(notes, event_notes(events));
   RunOutput run = estimate(std::move(input), params, options, streamed.robots);
   add_maps(run.result, scanned, params, ProgressLine().progress(), output.path());
   const Agreement agreement = evaluate(run.result, given);
@@ -168,7 +170,7 @@ void run_mission(const RunArguments& options) {
   if (agreement.metrics && !has_mirrored_truth(warnings))
     append(notes, mirror_notes(agreement.metrics->mirror_images));
   run.result.notes = std::move(notes);
-  const RunDocuments documents = documents_of(run, given, agreement);
+  const RunDocuments documents = documents_of(run, given, agreement, options.stream ? &events : nullptr);
   write_run(output.path(), run.result, documents);
   if (options.stream) write_online(output.path(), given.mission, streamed);
   output.commit();
