@@ -14,6 +14,7 @@ namespace {
 
 CityParams town() {
   CityParams params;
+  params.robots = 3;
   params.path_length_m = 400;
   params.min_contact_s = 5;
   params.radio.links = 60;
@@ -30,9 +31,19 @@ StreamedTeam stream(const Simulation& simulated) {
   return stream_team(simulated.mission, robots, params, {}, error_of);
 }
 
+/// A town, streamed once for several tests.
+struct Town {
+  Simulation simulated = simulate_city(town(), 3);
+  StreamedTeam team = stream(simulated);
+};
+
+const Town& streamed_town() {
+  static const Town town;
+  return town;
+}
+
 TEST(TeamStream, RobotsComeToShareAFrameAndStayThere) {
-  const Simulation simulated = simulate_city(town(), 3);
-  const StreamedTeam team = stream(simulated);
+  const auto& [simulated, team] = streamed_town();
   ASSERT_FALSE(team.estimates.empty());
   const OnlineEstimate& last = team.estimates.back();
   EXPECT_EQ(last.frame, std::vector<std::size_t>(simulated.mission.robots.size(), 0));
@@ -45,8 +56,7 @@ TEST(TeamStream, RobotsComeToShareAFrameAndStayThere) {
 }
 
 TEST(TeamStream, EveryKeyframeOfTheLogsIsSaidOnceInTimeOrder) {
-  const Simulation simulated = simulate_city(town(), 3);
-  const StreamedTeam team = stream(simulated);
+  const auto& [simulated, team] = streamed_town();
   std::vector<std::uint32_t> next(simulated.mission.robots.size(), 0);
   for (const OnlineKeyframe& keyframe : team.keyframes) EXPECT_EQ(keyframe.number, next[keyframe.robot]++);
   for (std::size_t k = 1; k < team.estimates.size(); ++k)
@@ -55,8 +65,7 @@ TEST(TeamStream, EveryKeyframeOfTheLogsIsSaidOnceInTimeOrder) {
 
 /// A frame is where an estimate put it, until the next one: keyframes in between follow the odometry.
 TEST(TeamStream, AKeyframeFollowsTheOdometrySinceTheLastEstimate) {
-  const Simulation simulated = simulate_city(town(), 3);
-  const StreamedTeam team = stream(simulated);
+  const auto& [simulated, team] = streamed_town();
   const Trajectory<SE3>& odometry = simulated.mission.robots[0].odometry;
   const OnlineKeyframe* before = nullptr;
   for (const OnlineKeyframe& keyframe : team.keyframes) {
