@@ -48,7 +48,7 @@ TEST(Stream, WritesWhatWasKnownOnTheWayBesideTheEstimateOfTheRun) {
     EXPECT_EQ(read_file(folder / "stream1" / file), read_file(folder / "stream2" / file)) << file;
   EXPECT_FALSE(read_file(folder / "stream1" / "a.online.tum").empty());
   const std::string table = read_file(folder / "stream1" / "online.csv");
-  EXPECT_EQ(table.rfind("t_s,robot,keyframe,latency_ms,delay_s\n", 0), 0u);
+  EXPECT_EQ(table.rfind("t_s,robot,keyframe,latency_ms,delay_s,solve_ms,effort,component,ate_m\n", 0), 0u);
   EXPECT_NE(table.find(",b,0,"), std::string::npos);
 }
 

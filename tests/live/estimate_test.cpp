@@ -18,9 +18,9 @@ const Simulation& town() {
   static const Simulation simulated = [] {
     CityParams params;
     params.robots = 3;
-    params.path_length_m = 400;
+    params.path_length_m = 250;
     params.min_contact_s = 5;
-    params.radio.links = 60;
+    params.radio.links = 40;
     return simulate_city(params, 3);
   }();
   return simulated;

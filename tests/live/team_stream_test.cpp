@@ -15,9 +15,9 @@ namespace {
 CityParams town() {
   CityParams params;
   params.robots = 3;
-  params.path_length_m = 400;
+  params.path_length_m = 250;
   params.min_contact_s = 5;
-  params.radio.links = 60;
+  params.radio.links = 40;
   return params;
 }
 

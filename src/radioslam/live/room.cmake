@@ -1,5 +1,7 @@
 radioslam_room(live
   SOURCES
+    link_evidence.cpp
+    published_frames.cpp
     scans_so_far.cpp
     stream_effort.cpp
     team_stream.cpp

@@ -56,4 +56,20 @@ ScanOdometry ScansSoFar::update(const LoggedKeyframes& known, const ScanLoopSear
   return scans;
 }
 
+MeasuredScans measured_so_far(std::vector<ScansSoFar>& scans, const std::vector<LoggedKeyframes>& keyframes,
+                              const std::vector<std::size_t>& numbers, const ScanLoopSearch& search,
+                              const Progress& progress) {
+  MeasuredScans measured;
+  for (std::size_t r = 0; r < numbers.size(); ++r) {
+    ScansSoFar& of_robot = scans[numbers[r]];
+    auto& of = measured.robots.emplace_back();
+    if (!of_robot.has_any(keyframes[numbers[r]])) continue;
+    of = of_robot.update(keyframes[numbers[r]], search, progress);
+    for (const ScanLoop& loop : of_robot.loops().loops)
+      measured.closures.push_back(
+          {RobotIndex(r), of->keyframe_stamps[loop.i], of->keyframe_stamps[loop.j], loop});
+  }
+  return measured;
+}
+
 }  // namespace radioslam

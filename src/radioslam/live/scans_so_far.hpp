@@ -40,4 +40,10 @@ class ScansSoFar {
   ScanLoops loops_;
 };
 
+/// What the scans of these robots say among the keyframes known of them, with the loops of each. `numbers`:
+/// of the robots that the result is of, in its order.
+MeasuredScans measured_so_far(std::vector<ScansSoFar>& scans, const std::vector<LoggedKeyframes>& keyframes,
+                              const std::vector<std::size_t>& numbers, const ScanLoopSearch& search,
+                              const Progress& progress);
+
 }  // namespace radioslam

@@ -1,9 +1,7 @@
 // A recorded team as its estimate grows: what each robot's front end says, in the order of time, and the
 // team's estimate made again as more becomes known (stream_effort.hpp).
 //
-// Between two estimates a robot's pose follows its odometry. A frame is named by its first robot. Robots
-// whose alignment is ambiguous stay in frames of their own; where a frame moves, or robots come to share one,
-// an event says so.
+// Between two estimates a robot's pose follows its odometry.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +14,7 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/front_end/replay.hpp"
+#include "radioslam/live/published_frames.hpp"
 #include "radioslam/live/stream_effort.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/pipeline/params.hpp"
@@ -40,12 +39,6 @@ struct OnlineEstimate {
   double weight = 1;                ///< of its alignment among others
   std::vector<std::size_t> frame;   ///< of every robot of the mission: the first robot in it
   std::optional<double> error_m{};  ///< of the frame with the most robots; where the truth is known
-};
-
-struct TeamEvent {
-  Stamp at;
-  std::string what;
-  bool is_join = false;  ///< a robot comes into another frame
 };
 
 struct StreamedTeam {

@@ -107,7 +107,7 @@ template <class Pose>
 JudgedTeam<Pose> judge_closures(const RunSetup& run, TeamEstimate<Pose> aligned,
                                 const std::vector<VerifiedClosure>& found = {});
 
-/// How much of an estimate is made anew. Each does all of what those before it do.
+/// How much of an estimate is made again. Each does all of what those before it do.
 enum class Effort {
   kExtend,  ///< odometry and links since, at the alignment and with the closures found before
   kJudge,   ///< closures, biases, fixes, fingerprints; alignments by links near those known

@@ -1,0 +1,57 @@
+// Where the robots' odometry lies in the frames of the team, as it is published.
+//
+// A frame is named by its first robot. Robots whose alignment is ambiguous are in frames of their own. What
+// moves by more than a metre or six degrees is an event, and so is a robot that comes into another frame.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "radioslam/joint/team_estimate.hpp"
+#include "radioslam/live/scans_so_far.hpp"
+
+namespace radioslam {
+
+struct TeamEvent {
+  Stamp at;
+  std::string what;
+  bool is_join = false;  ///< a robot comes into another frame
+};
+
+/// Where a robot's odometry starts in its frame.
+struct PublishedFrame {
+  std::size_t frame = 0;  ///< its first robot
+  SE3 T_frame_start;
+};
+
+/// A pose as an estimate in this dimension has it: in the plane, at height 0.
+template <class Pose>
+SE3 in_dimension(const SE3& pose) {
+  return as_se3(pose_as<Pose>(pose), 0);
+}
+
+class PublishedFrames {
+ public:
+  /// All robots in frames of their own.
+  explicit PublishedFrames(const std::vector<std::string>& robots);
+
+  /// Of a robot, by its number.
+  const PublishedFrame& of(std::size_t robot) const { return frames_[robot]; }
+  std::size_t size() const { return frames_.size(); }
+
+  /// Moves the frames to the estimate. `keyframes`: of every robot, as its log says them.
+  template <class Pose>
+  std::vector<TeamEvent> move_to(const TeamEstimate<Pose>& team, Stamp now,
+                                 const std::vector<LoggedKeyframes>& keyframes);
+
+ private:
+  std::size_t number_of(const std::string& robot) const;
+  void move(std::size_t robot, const PublishedFrame& to, Stamp now, const SE3& odometry,
+            std::vector<TeamEvent>& events);
+
+  std::vector<std::string> robots_;
+  std::vector<PublishedFrame> frames_;
+};
+
+}  // namespace radioslam
