@@ -79,7 +79,7 @@ TEST(StreamEffort, JudgementsGrowWithWhatIsKnown) {
     searches += *effort == Effort::kAlign;
   }
   EXPECT_LT(judged, 6 * kSeconds);
-  EXPECT_LE(searches, 16);
+  EXPECT_LE(searches, 30);  // every judgement is one where links lie between frames
 }
 
 }  // namespace

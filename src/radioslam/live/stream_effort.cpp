@@ -8,7 +8,7 @@ namespace {
 constexpr double kPeriod_s = 1, kJudgePeriod_s = 10, kContradictedPeriod_s = 3;
 constexpr double kSecondsPerKeyframe = 6e-6;  // of an extension
 constexpr double kJudgedGrowth = 1.25;        // of what is known
-constexpr std::size_t kFewLinks = 4;          // that may relate two frames
+constexpr std::size_t kFewLinks = 4;          // that may relate two frames; half as many more may do so again
 constexpr double kSearchedGrowth = 1.5, kSearchedTime = 1.2;
 constexpr double kCertain = 0.99;
 
@@ -20,8 +20,10 @@ bool has_grown(std::size_t now, std::size_t before, double by) {
 bool needs_search(const EffortState& state, const KnownCounts& known) {
   if (!state.aligned) return true;
   const KnownCounts& before = state.aligned->known;
-  return (known.unjoined_links >= kFewLinks &&
-          has_grown(known.unjoined_links, before.unjoined_links, kSearchedGrowth)) ||
+  const auto enough =
+      std::max({kFewLinks, before.unjoined_links + kFewLinks / 2,
+                static_cast<std::size_t>(kSearchedGrowth * static_cast<double>(before.unjoined_links))});
+  return known.unjoined_links >= enough ||
          (state.weight < kCertain && has_grown(known.links, before.links, kSearchedGrowth)) ||
          (state.is_contradicted && state.last != Effort::kExtend);
 }
@@ -57,7 +59,7 @@ std::optional<Effort> due_effort(const EffortState& state, Stamp now, const Know
   const double since_judgement_s = seconds_between(state.judged->at, now);
   if ((needs_judgement(state, known) && since_judgement_s >= kJudgePeriod_s) ||
       (state.is_contradicted && since_judgement_s >= kContradictedPeriod_s))
-    return Effort::kJudge;
+    return known.unjoined_links >= kFewLinks / 2 ? Effort::kAlign : Effort::kJudge;
   const double nominal_s = kSecondsPerKeyframe * static_cast<double>(known.keyframes);
   if (since_s * params.work_share < nominal_s) return std::nullopt;
   return Effort::kExtend;

@@ -2,6 +2,8 @@
 //
 // Counted, not timed: the same stream has the same estimates on every machine. Judgements and searches follow
 // the growth of what is known, so that all of them together cost a few times as much as one of everything.
+// Where links lie between frames that are not joined, a judgement is a search: closures alone join them
+// wrongly where places look alike.
 #pragma once
 
 #include <cstddef>
