@@ -59,7 +59,7 @@ std::optional<Effort> due_effort(const EffortState& state, Stamp now, const Know
   const double since_judgement_s = seconds_between(state.judged->at, now);
   if ((needs_judgement(state, known) && since_judgement_s >= kJudgePeriod_s) ||
       (state.is_contradicted && since_judgement_s >= kContradictedPeriod_s))
-    return known.unjoined_links >= kFewLinks / 2 ? Effort::kAlign : Effort::kJudge;
+    return known.unjoined_links >= kFewLinks / 2 || state.weight < kCertain ? Effort::kAlign : Effort::kJudge;
   const double nominal_s = kSecondsPerKeyframe * static_cast<double>(known.keyframes);
   if (since_s * params.work_share < nominal_s) return std::nullopt;
   return Effort::kExtend;

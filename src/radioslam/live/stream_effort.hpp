@@ -2,8 +2,8 @@
 //
 // Counted, not timed: the same stream has the same estimates on every machine. Judgements and searches follow
 // the growth of what is known, so that all of them together cost a few times as much as one of everything.
-// Where links lie between frames that are not joined, a judgement is a search: closures alone join them
-// wrongly where places look alike.
+// Where links lie between frames that are not joined, or leave several alignments, a judgement is a search:
+// where places look alike, closures must choose among all of them.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ struct EffortState {
   };
   std::optional<Done> any, judged, aligned;
   Stamp begin;                   ///< of the mission
-  double weight = 1;             ///< of the alignment
+  double weight = 1;             ///< of the alignment by links
   bool is_contradicted = false;  ///< the last links fit much worse than those before
   Effort last = Effort::kAlign;
 

@@ -118,7 +118,7 @@ class TeamStream {
     solution_ = estimate<Pose>({logged, scans}, solution_ ? &*solution_ : nullptr, *effort, params_,
                                {.lists_overlaps = false});
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    state_.weight = solution_->team.alignment.weight;
+    state_.weight = solution_->weight_by_links;
     state_.is_contradicted = fits_worse_of_late(solution_->team);
     state_.note(solution_->effort, now, known_);
     for (TeamEvent& event : frames_.move_to(solution_->team, now, keyframes_))
@@ -142,7 +142,8 @@ class TeamStream {
   }
 
   void describe(Stamp now, double seconds) {
-    OnlineEstimate estimate{now, solution_->effort, seconds, known_.keyframes, state_.weight, {}, {}};
+    OnlineEstimate estimate{
+        now, solution_->effort, seconds, known_.keyframes, solution_->team.alignment.weight, {}, {}};
     std::map<std::size_t, std::vector<std::size_t>> members;  // robots of the graph, by frame
     for (std::size_t r = 0; r < robots_.size(); ++r) estimate.frame.push_back(frames_.of(r).frame);
     const auto numbers = in_mission(solution_->team.joint.robots);

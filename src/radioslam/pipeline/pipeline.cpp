@@ -434,7 +434,7 @@ std::optional<TeamSolution<Pose>> extend(const RunSetup& run, const TeamSolution
     team->solution = optimize(team->joint.team.graph, run.params.optimizer, run.progress);
     if (!has_links) break;
   }
-  return TeamSolution<Pose>{*std::move(team), last.radio, last.places, Effort::kExtend};
+  return TeamSolution<Pose>{*std::move(team), last.radio, last.places, Effort::kExtend, last.weight_by_links};
 }
 
 template <class Pose>
@@ -481,7 +481,7 @@ TeamSolution<Pose> estimate(const TeamView& view, const TeamSolution<Pose>* last
                                   1, input.places);
   return {std::move(judged.judged.team), radio,
           std::make_shared<const RecognisedPlaces>(std::move(judged.places)),
-          searches ? Effort::kAlign : Effort::kJudge};
+          searches ? Effort::kAlign : Effort::kJudge, aligned.alignment.weight};
 }
 
 MeasuredRecordings measure_recordings(const Mission& recorded, const RunParams& params,

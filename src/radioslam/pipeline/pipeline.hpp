@@ -127,6 +127,7 @@ struct TeamSolution {
   std::shared_ptr<const RadioMeasurements> radio;
   std::shared_ptr<const RecognisedPlaces> places;
   Effort effort = Effort::kAlign;  ///< that it took
+  double weight_by_links = 1;      ///< of the alignment, before closures chose among alternatives
 };
 
 /// Estimates the team from the view, and from what was estimated of the same team when less was known; null:
