@@ -28,7 +28,7 @@ TEST(PublishedError, AnObservationAddsItsDisagreementWithWhatTheOtherSays) {
 }
 
 TEST(PublishedError, IsWhatTheOptimumLeaves) {
-  KnownTeam team("a", 0, SE2(), {});
+  RobotEstimate team("a", 0, SE2(), {});
   PublishedError error(1, 1, 1, SE2());
   for (int k = 0; k < 10; ++k) {
     team.move(k + 1, SE2({1, 0}, 0.2), 0.1, 0.1);

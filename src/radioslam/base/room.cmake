@@ -1,5 +1,6 @@
 radioslam_room(base
   SOURCES
+    base64.cpp
     check.cpp
     parallel.cpp
     random.cpp

@@ -5,8 +5,6 @@ radioslam_room(graph
     distributed/alternating.cpp
     distributed/block_coordinate.cpp
     distributed/cluster.cpp
-    distributed/condensed/known_team.cpp
-    distributed/condensed/shared_part.cpp
     distributed/frames.cpp
     distributed/held_factors.cpp
     distributed/information_code.cpp

@@ -11,7 +11,8 @@ namespace radioslam {
 namespace {
 
 constexpr std::string_view kMagic = "RSL2";
-constexpr std::size_t kMaxChunkRecords = 256, kMaxChunkBytes = 60000, kMaxRefusals = 8, kMaxDamaged = 16;
+constexpr std::size_t kMaxChunkRecords = 256, kMaxChunkBytes = 60000, kMaxRefusals = 8, kMaxDamaged = 16,
+                      kChunkFrame = 1000;  // of a chunk's bytes, for all but its records
 constexpr std::uint64_t kMaxRecords = std::uint64_t{1} << 40U;
 
 constexpr std::array<std::uint32_t, 256> crc_table() {
@@ -84,6 +85,32 @@ std::string contradiction(const Chunk& chunk, const KnownLog* known) {
   return {};
 }
 
+/// The chunk of the records from `first` up to before `end` that fit into so many bytes; moves `first`.
+template <class Index, class RecordAt>
+std::string next_chunk(const std::pair<std::string_view, std::uint32_t>& robot_life, Index& first, Index end,
+                       std::size_t most_bytes, const RecordAt& record) {
+  const auto& [robot, life] = robot_life;
+  std::size_t size = kChunkFrame;
+  Index last = first;
+  for (; last < end && last - first < kMaxChunkRecords; ++last) {
+    size += record(last).size() + 4;
+    if (last > first && size > most_bytes) break;
+  }
+  WireWriter out;
+  out.append(kMagic);
+  out.whole(robot.size());
+  out.append(robot);
+  out.u32(life);
+  out.whole(first);
+  out.whole(last - first);
+  for (; first < last; ++first) {
+    out.whole(record(first).size());
+    out.append(record(first));
+  }
+  out.u32(crc32(out.bytes()));
+  return out.take();
+}
+
 }  // namespace
 
 std::uint32_t RobotLog::life() const {
@@ -96,29 +123,18 @@ std::string RobotLog::bytes(std::size_t first, std::size_t end) const {
   end = std::min(end, records.size());
   const std::uint32_t life = this->life();
   std::string all;
-  while (first < end) {
-    std::size_t count = 0, size = 0;
-    while (first + count < end && count < kMaxChunkRecords) {
-      size += records[first + count].size() + 4;
-      if (count > 0 && size > kMaxChunkBytes - 1000) break;
-      ++count;
-    }
-    WireWriter out;
-    out.append(kMagic);
-    out.whole(robot.size());
-    out.append(robot);
-    out.u32(life);
-    out.whole(first);
-    out.whole(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      out.whole(records[first + k].size());
-      out.append(records[first + k]);
-    }
-    out.u32(crc32(out.bytes()));
-    all += out.bytes();
-    first += count;
-  }
+  const auto record = [this](std::uint64_t k) -> const std::string& { return records[k]; };
+  while (first < end) all += next_chunk({robot, life}, first, end, kMaxChunkBytes, record);
   return all;
+}
+
+std::pair<std::string, std::uint64_t> KnownLog::bytes(const std::string& robot, std::uint64_t first,
+                                                      std::uint64_t end, std::size_t most_bytes) const {
+  std::string all;
+  const auto record = [this](std::uint64_t k) -> const std::string& { return records.at(k); };
+  while (first < end && all.size() < most_bytes)
+    all += next_chunk({robot, life}, first, end, std::min(kMaxChunkBytes, most_bytes - all.size()), record);
+  return {std::move(all), first};
 }
 
 std::vector<std::pair<std::uint64_t, std::uint64_t>> KnownLog::gaps() const {

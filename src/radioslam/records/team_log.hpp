@@ -48,6 +48,10 @@ struct KnownLog {
 
   /// First and last number of every stretch that is missing before the last known record.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> gaps() const;
+  /// Chunks of the records from `first` up to before `end`, all of them known, of at most so many bytes, and
+  /// the number of the first record that is left. At least one record, if there is any.
+  std::pair<std::string, std::uint64_t> bytes(const std::string& robot, std::uint64_t first,
+                                              std::uint64_t end, std::size_t most_bytes) const;
 };
 
 class TeamLog {
@@ -58,6 +62,8 @@ class TeamLog {
   Acceptance accept(std::string_view bytes);
   /// Takes the whole log of a robot from the robot itself, unchecked.
   void add(const RobotLog& own);
+  /// As if nothing of the robot had been known: another recording can be taken.
+  void forget(const std::string& robot) { robots_.erase(robot); }
 
   /// By the robots' names.
   const std::map<std::string, KnownLog>& robots() const { return robots_; }

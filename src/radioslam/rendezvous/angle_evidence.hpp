@@ -3,10 +3,15 @@
 
 #include <vector>
 
-#include "radioslam/graph/distributed/condensed/shared_part.hpp"
 #include "radioslam/rendezvous/robot_interface.hpp"
 
 namespace radioslam {
+
+/// What angles of arrival say of a relative pose between two robots.
+struct AngleEvidence {
+  double log_odds = 0;  ///< against it, of a direction drawn evenly
+  double scale = 1;     ///< of its information by Wang et al., eq. 7
+};
 
 struct AngleCheckParams {
   double direct_ratio = 0.95;  ///< probability that one of the arrivals is the direct one

@@ -52,16 +52,15 @@ void PublishedError::see(const SE2& T_i_j, const std::optional<SE2>& raw_other) 
   if (raw_other) since_ += term(raw_.back(), *raw_other, T_i_j);
 }
 
-void PublishedError::optimized(const KnownTeam& team) {
+void PublishedError::optimized(const RobotEstimate& team) {
   raw_ = team.poses();
   since_ = settled_ = 0;
-  for (std::size_t k = 0; k < team.steps().size(); ++k)
-    settled_ += term(raw_[k], raw_[k + 1], team.steps()[k].pose);
+  for (std::size_t k = 1; k < raw_.size(); ++k)
+    settled_ += term(raw_[k - 1], raw_[k], team.own().steps()[k].pose);
   std::map<std::pair<std::uint32_t, std::string>, MeanPose> means;
-  for (const SharedObservation& observation : team.observations())
-    if (const auto other = team.pose_of(observation.robot, observation.t_s))
-      means[{observation.node, observation.robot}].add(other->inverse() * raw_[observation.node] *
-                                                       observation.T_i_j);
+  for (const Sighting& seen : team.own().sightings())
+    if (const auto other = team.pose_of(seen.robot, seen.stamp))
+      means[{seen.keyframe, seen.robot}].add(other->inverse() * raw_[seen.keyframe] * seen.T_i_j);
   for (const auto& [key, mean] : means) settled_ += term(SE2(), mean.pose(), SE2());
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "radioslam/base/random.hpp"
-#include "radioslam/graph/distributed/condensed/known_team.hpp"
+#include "radioslam/rendezvous/robot_estimate.hpp"
 
 namespace radioslam {
 
@@ -23,7 +23,7 @@ class PublishedError {
   /// Another robot was seen from the latest pose; `raw_other`: where it says it was, if it did.
   void see(const SE2& T_i_j, const std::optional<SE2>& raw_other);
   /// After an optimization: its poses replace the raw ones.
-  void optimized(const KnownTeam& team);
+  void optimized(const RobotEstimate& team);
   double value() const { return settled_ + since_; }
   double since_optimized() const { return since_; }
   const SE2& latest() const { return raw_.back(); }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "radioslam/base/fields.hpp"
-#include "radioslam/graph/distributed/condensed/known_team.hpp"
+#include "radioslam/rendezvous/robot_estimate.hpp"
 
 namespace radioslam {
 
@@ -44,7 +44,7 @@ struct RendezvousParams {
   double meeting_x_m = 0, meeting_y_m = 0;
   double meeting_every_s = 25, meeting_wait_s = 10;
   int seed = 1;
-  KnownTeamParams estimate;
+  RobotEstimateParams estimate;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -92,7 +92,7 @@ struct RendezvousParams {
     RADIOSLAM_FIELD(meeting_every_s, "s", 0.1, 1e6, "scheduled: time between two meetings");
     RADIOSLAM_FIELD(meeting_wait_s, "s", 0, 1e6, "scheduled: how long a robot stays there");
     RADIOSLAM_FIELD(seed, "", 0, 2147483647, "seed of the raw poses' noise in the published error");
-    KnownTeamParams::visit_fields(self.estimate, visit);
+    RobotEstimateParams::visit_fields(self.estimate, visit);
   }
 };
 

@@ -15,11 +15,11 @@ constexpr int kLooksInVain = 3;          ///< multiple of kappa after which two 
 constexpr int kAnswerTicks = 5;          ///< in which a chosen partner should have answered
 constexpr std::size_t kKeptNodes = 4;    ///< latest own poses whose packets are kept
 constexpr std::size_t kKeptPackets = 4;  ///< for each of them
-constexpr int kRepeatRounds = 2;         ///< until a part that is not confirmed is sent again
+constexpr int kRepeatRounds = 2;         ///< until records that are not confirmed are sent again
 constexpr int kRefreshTicks = 10;        ///< after which news of others alone are used
 constexpr std::size_t kRestNodes = 3;    ///< poses between two calls
 constexpr std::size_t kReceivers = 8;    ///< of data after one tick, besides robots in sight
-constexpr std::size_t kMessageBytes = 56000;
+constexpr std::size_t kMessageBytes = 38000;  ///< of records
 constexpr double kMeetingRadius_m = 1.5;
 constexpr double kPathLossExponent = 2.2;  ///< for a rough distance where nothing better is known
 constexpr double kDecade_db = 10 * kPathLossExponent;
@@ -32,9 +32,10 @@ std::uint64_t seed_of(const std::string& id, int seed) {
   return hash ^ static_cast<std::uint64_t>(seed);
 }
 
-/// Bytes of a part in a message, roughly.
-std::size_t size_of(const SharedPart& part) {
-  return 300 + 215 * part.nodes.size() + 120 * part.observations.size() + 60 * part.evidence.size();
+/// Where a robot that starts at a time begins to count what it says: above all of a life before.
+std::uint64_t first_number(double t_s) {
+  constexpr double kPerSecond = 1000;
+  return static_cast<std::uint64_t>(std::max(0.0, t_s) * kPerSecond);
 }
 
 /// Of the distance between a position and its estimate (m^2).
@@ -56,7 +57,7 @@ RendezvousRobot::RendezvousRobot(const std::string& id, const RobotStart& start,
       delta_(start.delta.value_or(params.delta)),
       max_step_m_(start.max_step_m.value_or(params.max_step_m)),
       kappa_(start.kappa.value_or(params.kappa)),
-      team_(id, start.t_s, start.pose, params.estimate),
+      team_(id, start.t_s, start.pose, params.estimate, {params.direct_ratio, params.angle_threshold_rad}),
       published_(params.omega_t, params.omega_r, seed_of(id, params.seed), start.pose.value_or(SE2())),
       walk_(params),
       statuses_(first_number(start.t_s)),
@@ -64,7 +65,7 @@ RendezvousRobot::RendezvousRobot(const std::string& id, const RobotStart& start,
       start_s_(start.t_s) {}
 
 void RendezvousRobot::move(const OdometryStep& step) {
-  judge_observations();
+  say_observations();
   now_s_ = step.t_s;
   walked_m_ += step.T_previous_body.translation().norm();
   team_.move(step.t_s, step.T_previous_body, step.sigma_m, step.sigma_rad);
@@ -74,7 +75,7 @@ void RendezvousRobot::move(const OdometryStep& step) {
 void RendezvousRobot::see(const SeenRobot& seen) {
   now_s_ = seen.t_s;
   if (seen.robot == id_) return;
-  unjudged_.push_back(seen);
+  unsaid_.push_back(seen);
 }
 
 void RendezvousRobot::hear(const HeardPacket& packet) {
@@ -91,12 +92,13 @@ void RendezvousRobot::hear(const HeardPacket& packet) {
   while (link.packets.size() > kKeptNodes) link.packets.erase(link.packets.begin());
   if (!packet.message) return;
   const auto& status = packet.message->status;
+  if (status) team_.logs().note(status->knows);
   if (status && (!link.status || status->number > link.status->number)) {
     if (!link.status || status->walked_m != link.status->walked_m) link.walked_tick = ticks_;
     link.status = {packet.message, &*status};
     link.status_tick = ticks_;
   }
-  for (const auto& part : packet.message->parts) team_.take(part);
+  team_.logs().accept(packet.message->records);
 }
 
 void RendezvousRobot::meet_obstacle(const ObstacleAhead& obstacle) {
@@ -104,44 +106,52 @@ void RendezvousRobot::meet_obstacle(const ObstacleAhead& obstacle) {
   obstacles_.add(team_.raw_poses().back(), obstacle);
 }
 
-/// The arrivals of another robot's packets at an own pose, of those next to a time.
-std::vector<std::vector<ArrivalPath>> RendezvousRobot::arrivals(const std::string& robot, std::size_t node,
-                                                                double t_s) const {
-  std::vector<std::vector<ArrivalPath>> list;
+/// Says the arrivals of another robot's packets at an own pose, of those next to a time.
+void RendezvousRobot::say_angles(const std::string& robot, std::uint32_t node, Stamp stamp) {
   const auto link = links_.find(robot);
-  if (link == links_.end()) return list;
+  if (link == links_.end()) return;
   const auto packets = link->second.packets.find(node);
-  if (packets == link->second.packets.end()) return list;
+  if (packets == link->second.packets.end()) return;
+  const auto distance_s = [&](const KeptPacket& packet) {
+    return std::abs(seconds_between(stamp, Stamp::from_seconds(packet.t_s)));
+  };
   double nearest_s = std::numeric_limits<double>::infinity();
-  for (const KeptPacket& packet : packets->second)
-    nearest_s = std::min(nearest_s, std::abs(packet.t_s - t_s));
-  for (const KeptPacket& packet : packets->second)
-    if (std::abs(packet.t_s - t_s) <= nearest_s) list.push_back(packet.paths);
-  return list;
+  for (const KeptPacket& packet : packets->second) nearest_s = std::min(nearest_s, distance_s(packet));
+  for (KeptPacket& packet : packets->second) {
+    if (packet.said || packet.paths.empty() || distance_s(packet) > nearest_s) continue;
+    team_.hear(packet.t_s, robot, node, packet.paths);
+    packet.said = true;
+  }
 }
 
-/// The angles heard at a pose against what was seen from it, or of it.
-void RendezvousRobot::judge_observations() {
-  const AngleCheckParams check{params_.direct_ratio, params_.angle_threshold_rad};
-  for (const SeenRobot& seen : unjudged_) {
-    const auto evidence =
-        check_angles({seen.T_i_j, seen.sigma_m, 0}, arrivals(seen.robot, team_.size() - 1, seen.t_s), check);
-    team_.see(seen.t_s, seen.robot, seen.T_i_j, seen.sigma_m, seen.sigma_rad, evidence);
+/// Others as they were seen from the latest pose; and to what was seen from a pose, or of it, the angles
+/// heard there.
+void RendezvousRobot::say_observations() {
+  for (const SeenRobot& seen : unsaid_) {
+    team_.see(seen.t_s, seen.robot, seen.T_i_j, seen.sigma_m, seen.sigma_rad);
     const auto link = links_.find(seen.robot);
     const bool placed = link != links_.end() && is_placed(link->second);
     published_.see(seen.T_i_j, placed ? std::optional(link->second.status->pose) : std::nullopt);
   }
-  unjudged_.clear();
-  for (const UnjudgedObservation& seen : team_.unjudged())
-    team_.judge(seen.by, seen.t_s,
-                check_angles({seen.T_j_i, seen.sigma_m, seen.sigma_rad},
-                             arrivals(seen.by, seen.node, seen.t_s), check));
+  unsaid_.clear();
+  team_.logs().is_whole_until(Stamp::from_seconds(now_s_));
+  for (const auto& [robot, log] : team_.logs().all()) {
+    const auto& sightings = log.sightings();
+    std::size_t& answered = answered_[robot];
+    for (answered = std::min(answered, sightings.size()); answered < sightings.size(); ++answered) {
+      const Sighting& seen = sightings[answered];
+      if (robot == id_)
+        say_angles(seen.robot, seen.keyframe, seen.stamp);
+      else if (const auto node = team_.own().keyframe_at(seen.stamp); node && seen.robot == id_)
+        say_angles(robot, *node, seen.stamp);
+    }
+  }
 }
 
 /// The news of others alone can wait, and so can a second solution in one talk, except where robots meet on
 /// purpose.
 void RendezvousRobot::update_estimate(bool talk) {
-  judge_observations();
+  say_observations();
   if (!talk) solved_in_talk_ = false;
   const bool own_news = team_.has_own_news();
   const bool meets = call_ || service_ || anchored_.role() == AnchoredExploration::Role::kReturning;
@@ -169,9 +179,10 @@ const RendezvousRobot::Link* RendezvousRobot::present(const std::string& robot) 
 
 /// How often this robot has seen another, whether or not they could exchange what they know.
 int RendezvousRobot::seen_since(const std::string& robot, double since_s) const {
-  const auto& list = team_.observations();
-  return static_cast<int>(std::count_if(list.begin(), list.end(), [&](const SharedObservation& each) {
-    return each.robot == robot && each.t_s >= since_s;
+  const auto& list = team_.own().sightings();
+  const Stamp since = Stamp::from_seconds(since_s);
+  return static_cast<int>(std::count_if(list.begin(), list.end(), [&](const Sighting& each) {
+    return each.robot == robot && each.stamp >= since;
   }));
 }
 
@@ -238,7 +249,7 @@ void RendezvousRobot::follow_up_call() {
   if (!call_->partner.empty()) {
     const Link* link = present(call_->partner);
     const bool done =
-        team_.observations_with(call_->partner, call_->since_s) >= static_cast<std::size_t>(kappa_);
+        team_.sightings_with(call_->partner, call_->since_s) >= static_cast<std::size_t>(kappa_);
     if (done) {
       ++rendezvous_held_;
       call_.reset();
@@ -331,33 +342,55 @@ void RendezvousRobot::write_status(TickAnswer& answer) {
   status.standing = anchored_.role() == AnchoredExploration::Role::kStanding;
   status.leans_on = anchored_.leans_on();
   status.walked_m = walked_m_;
-  for (const auto& [robot, part] : team_.parts()) status.knows[robot] = part->version;
+  status.knows = team_.logs().versions(now_s_);
   auto message = std::make_shared<RobotMessage>();
   message->status = std::move(status);
   answer.messages.push_back({{}, Reach::kControl, std::move(message)});
 }
 
-/// Whether a robot should be sent a part: it is not known to have it, and it was not sent just now.
-bool RendezvousRobot::lacks(const std::string& robot, const Link& link, const SharedPart& part) const {
-  if (part.robot == robot) return false;
-  if (link.status) {
-    const auto known = link.status->knows.find(part.robot);
-    if (known != link.status->knows.end() && known->second >= part.version) return false;
+bool RendezvousRobot::is_heard_now(const std::string& robot) const {
+  const auto link = links_.find(robot);
+  return link != links_.end() && ticks_ - link->second.heard_tick <= 1;
+}
+
+/// Whether a robot should be sent records of a log: it is not known to have them, and was not sent them just
+/// now.
+bool RendezvousRobot::lacks(Link& link, const std::string& log, const LogVersion& version) const {
+  SentLog& sent = link.sent[log];
+  if (sent.life != version.life) sent = {version.life};
+  std::uint64_t confirmed = 0;
+  if (link.status)
+    if (const auto known = link.status->knows.find(log); known != link.status->knows.end()) {
+      if (known->second.life > version.life) return false;
+      if (known->second.life == version.life) confirmed = known->second.records;
+    }
+  if (confirmed > sent.confirmed || confirmed >= sent.end) {
+    sent.round = rounds_;
+    sent.confirmed = confirmed;
+    sent.end = std::max(sent.end, confirmed);
   }
-  const auto sent = link.sent.find(part.robot);
-  return sent == link.sent.end() || sent->second.version != part.version ||
-         rounds_ - sent->second.round >= kRepeatRounds;
+  const bool repeats = rounds_ - sent.round >= kRepeatRounds;
+  if (repeats) {
+    sent.round = rounds_;
+    sent.confirmed = sent.end = confirmed;
+  }
+  // A robot that is heard says its records itself; they are passed on where that does not arrive.
+  if (!repeats && log != id_ && is_heard_now(log)) sent.end = std::max(sent.end, version.records);
+  return sent.end < version.records;
 }
 
 /// Robots that lack something and can be sent it now: those in sight, then those that are heard best.
-std::vector<RendezvousRobot::Delivery> RendezvousRobot::deliveries() {
+std::vector<RendezvousRobot::Delivery> RendezvousRobot::deliveries(
+    const std::map<std::string, LogVersion>& versions) {
   std::vector<Delivery> list;
-  for (const auto& [robot, link] : links_) {
-    if (link.node + 1 != team_.size() || link.esnr_db < q_db_ || ticks_ - link.heard_tick > 1) continue;
+  for (auto& [robot, link] : links_) {
+    if (link.node + 1 != team_.size() || link.esnr_db < q_db_ || !is_heard_now(robot)) continue;
     Delivery delivery{!sees_now(robot), -link.esnr_db, robot, {}};
-    for (const auto& part : team_.parts_for(robot, now_s_))
-      if (lacks(robot, link, *part)) delivery.parts.push_back(part);
-    if (!delivery.parts.empty()) list.push_back(std::move(delivery));
+    for (const std::string& log : team_.logs().around(robot, params_.estimate.hops)) {
+      const auto version = versions.find(log);
+      if (version != versions.end() && lacks(link, log, version->second)) delivery.logs.push_back(log);
+    }
+    if (!delivery.logs.empty()) list.push_back(std::move(delivery));
   }
   std::stable_sort(list.begin(), list.end(), [](const Delivery& a, const Delivery& b) {
     return std::pair(a.out_of_sight, a.minus_esnr_db) < std::pair(b.out_of_sight, b.minus_esnr_db);
@@ -366,16 +399,17 @@ std::vector<RendezvousRobot::Delivery> RendezvousRobot::deliveries() {
   return list;
 }
 
-/// To robots with enough signal, the parts that they are not known to have.
+/// To robots with enough signal, the records that they are not known to have.
 void RendezvousRobot::write_data(TickAnswer& answer) {
-  for (const Delivery& delivery : deliveries()) {
+  const auto status = answer.messages.back().message;
+  for (const Delivery& delivery : deliveries(status->status->knows)) {
     auto message = std::make_shared<RobotMessage>();
-    std::size_t bytes = 0;
-    for (const auto& part : delivery.parts) {
-      bytes += size_of(*part);
-      if (bytes > kMessageBytes && !message->parts.empty()) break;
-      links_.at(delivery.robot).sent[part->robot] = {part->version, rounds_};
-      message->parts.push_back(part);
+    for (const std::string& log : delivery.logs) {
+      if (message->records.size() >= kMessageBytes) break;
+      std::uint64_t& end = links_.at(delivery.robot).sent[log].end;
+      auto [bytes, next] = team_.logs().records(log, end, kMessageBytes - message->records.size());
+      message->records += bytes;
+      end = next;
     }
     answer.messages.push_back({delivery.robot, Reach::kData, std::move(message)});
   }
@@ -393,9 +427,8 @@ std::optional<ExpectedDirection> RendezvousRobot::expected_direction(const Link&
 }
 
 bool RendezvousRobot::sees_now(const std::string& robot) const {
-  const auto& observations = team_.observations();
-  for (auto seen = observations.rbegin(); seen != observations.rend() && seen->node + 1 == team_.size();
-       ++seen)
+  const auto& sightings = team_.own().sightings();
+  for (auto seen = sightings.rbegin(); seen != sightings.rend() && seen->keyframe + 1 == team_.size(); ++seen)
     if (seen->robot == robot) return true;
   return false;
 }
@@ -413,8 +446,7 @@ std::vector<AnchorNeighbour> RendezvousRobot::anchor_neighbours() const {
 /// Whether to explore, to stand, or to come back.
 void RendezvousRobot::take_turns() {
   const bool returned = anchored_.role() == AnchoredExploration::Role::kReturning;
-  if (returned &&
-      team_.observations_with(anchored_.leans_on(), return_s_) >= static_cast<std::size_t>(kappa_)) {
+  if (returned && team_.sightings_with(anchored_.leans_on(), return_s_) >= static_cast<std::size_t>(kappa_)) {
     ++rendezvous_held_;
     anchored_.met(walked_m_, anchor_neighbours());
   } else if (returned && has_run_out(return_s_, return_tick_)) {
@@ -500,14 +532,16 @@ TickAnswer RendezvousRobot::tick(const DecisionTick& tick) {
 }
 
 FinalTrajectory RendezvousRobot::finish() {
-  judge_observations();
+  say_observations();
   team_.solve();
+  const auto seconds = [](Stamp stamp) { return static_cast<double>(stamp.ns) / 1e9; };
   FinalTrajectory trajectory;
-  for (std::size_t k = 0; k < team_.size(); ++k) trajectory.rows.push_back({team_.time(k), team_.poses()[k]});
+  for (std::size_t k = 0; k < team_.size(); ++k)
+    trajectory.rows.push_back({seconds(team_.own().stamps()[k]), team_.poses()[k]});
   trajectory.frame = team_.frame();
-  for (std::size_t k = 0; k < team_.observations().size(); ++k)
+  for (std::size_t k = 0; k < team_.own().sightings().size(); ++k)
     trajectory.measurements.push_back(
-        {team_.observations()[k].t_s, team_.observations()[k].robot, team_.weight(k)});
+        {seconds(team_.own().sightings()[k].stamp), team_.own().sightings()[k].robot, team_.weight(k)});
   return trajectory;
 }
 

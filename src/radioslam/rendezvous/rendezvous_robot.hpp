@@ -1,6 +1,6 @@
 // One robot of a team that meets when it must: it watches its error, calls others, answers their calls, walks
 // to them along the radio's direction, exchanges what it measured, and estimates where all of them were.
-// Sources: Wang et al., algorithms 1 and 2; known_team.hpp for the estimate.
+// Sources: Wang et al., algorithms 1 and 2; robot_estimate.hpp for the estimate.
 //
 // It knows no simulator and no clock: everything comes in by events in the order of time, and every decision
 // is an answer to a tick. Messages may be lost, late, repeated or out of order, and any robot may vanish:
@@ -16,13 +16,13 @@
 #include <string>
 #include <vector>
 
-#include "radioslam/graph/distributed/condensed/known_team.hpp"
 #include "radioslam/rendezvous/adaptive_walk.hpp"
 #include "radioslam/rendezvous/anchored_exploration.hpp"
 #include "radioslam/rendezvous/angle_evidence.hpp"
 #include "radioslam/rendezvous/partner_choice.hpp"
 #include "radioslam/rendezvous/published_error.hpp"
 #include "radioslam/rendezvous/rendezvous_params.hpp"
+#include "radioslam/rendezvous/robot_estimate.hpp"
 #include "radioslam/rendezvous/robot_interface.hpp"
 #include "radioslam/rendezvous/robot_message.hpp"
 
@@ -42,7 +42,7 @@ class RendezvousRobot {
 
   RobotState state() const;
   double error() const;  ///< by the monitor
-  const KnownTeam& estimate() const { return team_; }
+  const RobotEstimate& estimate() const { return team_; }
   double delta() const { return delta_; }
   /// Calls of this robot that a rendezvous has answered.
   int rendezvous_held() const { return rendezvous_held_; }
@@ -50,13 +50,16 @@ class RendezvousRobot {
   int optimizations() const { return optimizations_; }
 
  private:
-  struct SentPart {
-    std::uint64_t version = 0;
-    int round = 0;
+  /// What another robot was sent of a log.
+  struct SentLog {
+    std::uint32_t life = 0;
+    std::uint64_t confirmed = 0, end = 0;  ///< records that it has said to have, and those sent
+    int round = 0;                         ///< of the last progress
   };
   struct KeptPacket {
     double t_s = 0;
     std::vector<ArrivalPath> paths;
+    bool said = false;  ///< in a record
   };
   /// Another robot as it is heard.
   struct Link {
@@ -66,8 +69,8 @@ class RendezvousRobot {
     std::map<std::size_t, std::deque<KeptPacket>> packets;  ///< per own pose, the latest ones
     std::shared_ptr<const RobotStatus> status;              ///< the latest
     int status_tick = 0;
-    int walked_tick = 0;                   ///< when it last said that it had moved
-    std::map<std::string, SentPart> sent;  ///< per robot that the part is of
+    int walked_tick = 0;                  ///< when it last said that it had moved
+    std::map<std::string, SentLog> sent;  ///< per robot whose log it is
   };
   /// A rendezvous that this robot has called for.
   struct Call {
@@ -86,7 +89,7 @@ class RendezvousRobot {
     bool out_of_sight = true;
     double minus_esnr_db = 0;
     std::string robot;
-    std::vector<KnownTeam::PartPointer> parts;
+    std::vector<std::string> logs;
   };
   struct Service {
     std::string caller;
@@ -104,9 +107,8 @@ class RendezvousRobot {
   bool is_placed(const Link& link) const;
   void shun(const std::string& robot);
 
-  std::vector<std::vector<ArrivalPath>> arrivals(const std::string& robot, std::size_t node,
-                                                 double t_s) const;
-  void judge_observations();
+  void say_angles(const std::string& robot, std::uint32_t node, Stamp stamp);
+  void say_observations();
   void update_estimate(bool talk);
   double removable_error() const;
   bool wants_to_call() const;
@@ -121,8 +123,9 @@ class RendezvousRobot {
   Movement walk_to(const std::string& robot);
 
   void write_status(TickAnswer& answer);
-  bool lacks(const std::string& robot, const Link& link, const SharedPart& part) const;
-  std::vector<Delivery> deliveries();
+  bool is_heard_now(const std::string& robot) const;
+  bool lacks(Link& link, const std::string& log, const LogVersion& version) const;
+  std::vector<Delivery> deliveries(const std::map<std::string, LogVersion>& versions);
   void write_data(TickAnswer& answer);
   bool may_be_answered() const;
   Movement decide();
@@ -136,12 +139,13 @@ class RendezvousRobot {
   ErrorMonitor monitor_;
   double q_db_, delta_, max_step_m_;
   int kappa_;
-  KnownTeam team_;
+  RobotEstimate team_;
   PublishedError published_;
   ObstacleMemory obstacles_;
   AdaptiveWalk walk_;
   std::map<std::string, Link> links_;
-  std::vector<SeenRobot> unjudged_;  ///< seen from the latest pose since the last tick
+  std::vector<SeenRobot> unsaid_;                ///< seen from the latest pose since the last tick
+  std::map<std::string, std::size_t> answered_;  ///< sightings of robots' logs to which the angles are said
   std::optional<Call> call_;
   std::optional<Service> service_;
   std::string offer_to_;

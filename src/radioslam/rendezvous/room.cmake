@@ -5,5 +5,8 @@ radioslam_room(rendezvous
     angle_evidence.cpp
     partner_choice.cpp
     published_error.cpp
+    read_log.cpp
     rendezvous_robot.cpp
-  ROOMS base graph)
+    robot_estimate.cpp
+    robot_logs.cpp
+  ROOMS graph records)

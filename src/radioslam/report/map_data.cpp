@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "radioslam/base/base64.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -55,21 +57,6 @@ PageData grid_data(OccupancyGrid grid, const SE3& T_page_estimate) {
           {"y", rounded(t.y(), 4)},
           {"yaw", rounded(T_page_estimate.yaw(), 6)},
           {"runs", runs_of(grid.cells)}};
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * (bytes.size() + 2) / 3);
-  const auto byte = [&](std::size_t k) {
-    return k < bytes.size() ? std::uint32_t{static_cast<std::uint8_t>(bytes[k])} : 0U;
-  };
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::uint32_t three = byte(k) << 16U | byte(k + 1) << 8U | byte(k + 2);
-    for (std::size_t digit = 0; digit < 4; ++digit)
-      text += k + digit <= bytes.size() ? kDigits[(three >> (18 - 6 * digit)) & 63U] : '=';
-  }
-  return text;
 }
 
 /// Coordinates and time of a point.

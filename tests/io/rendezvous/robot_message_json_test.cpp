@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-#include <cmath>
 #include <functional>
 
 #include "io/refusal.hpp"
@@ -15,31 +13,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kRelative = 1e-8;  ///< of nine digits, with a margin for what is computed from them
-
-/// The covariance of a way that ends at (x, y) after its heading has changed.
-SE2::Jacobian covariance_of_way(double sigma_m, double sigma_rad, double x_m, double y_m) {
-  SE2::Jacobian factor = SE2::Jacobian::Zero();
-  factor.row(0) << sigma_m, 0, 0;
-  factor.row(1) << 0, sigma_m, 0;
-  factor.row(2) << -y_m * sigma_rad, x_m * sigma_rad, sigma_rad;
-  return factor.transpose() * factor;
-}
-
-SharedPart example_part() {
-  SharedPart part;
-  part.robot = "a";
-  part.version = 7;
-  part.start = SE2({1.25, -2}, 0.5);
-  part.nodes.push_back({0, 0.1, std::nextafter(1.0 / 3, 0), {}});
-  part.nodes.push_back({41,
-                        1.0 / 3,
-                        2.0 / 3,
-                        {SE2({12.3456789012, 1e-7}, -3.0), covariance_of_way(0.3, 0.02, 12.3, 4.56789)}});
-  part.observations.push_back({41, "c", 0.1 + 0.2, SE2({-4.5, 2.0 / 3}, 1), 0.1, 0.02, {-1.5, 1}});
-  part.observations.push_back({0, "b", 0.2, SE2({5, 6}, 0), 0.1, 0.02, {}});
-  part.evidence.push_back({"c", 2.0 / 7, {3.5, 0.25}});
-  return part;
-}
 
 RobotStatus example_status() {
   RobotStatus status;
@@ -54,13 +27,12 @@ RobotStatus example_status() {
   status.standing = true;
   status.leans_on = "c";
   status.walked_m = 1.5;
-  status.knows = {{"b", 4}, {"c", std::uint64_t{1} << 60U}};
+  status.knows = {{"b", {7, 4, 1.0 / 3}}, {"c", {0, std::uint64_t{1} << 60U, 1.7e9 + 0.1}}};
   return status;
 }
 
 Json example_json() {
-  RobotMessage message{example_status(), {std::make_shared<const SharedPart>(example_part())}};
-  return Json::parse(message_json(message).dump());
+  return Json::parse(message_json({example_status(), std::string("\0\xff any bytes", 12)}).dump());
 }
 
 void expect_near(const SE2& read, const SE2& written) {
@@ -86,44 +58,12 @@ TEST(RobotMessageJson, AStatusComesBack) {
   EXPECT_EQ(status.knows, written.knows);
 }
 
-TEST(RobotMessageJson, APartComesBackWithExactTimes) {
-  const SharedPart written = example_part();
-  const RobotMessage message = read_message(example_json());
-  ASSERT_EQ(message.parts.size(), 1U);
-  const SharedPart& part = *message.parts[0];
-  EXPECT_EQ(part.robot, "a");
-  EXPECT_EQ(part.version, 7U);
-  expect_near(*part.start, *written.start);
-  ASSERT_EQ(part.nodes.size(), 2U);
-  for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_EQ(part.nodes[k].number, written.nodes[k].number);
-    EXPECT_EQ(part.nodes[k].t_s, written.nodes[k].t_s);
-    EXPECT_EQ(part.nodes[k].until_s, written.nodes[k].until_s);
-    expect_near(part.nodes[k].from_before.pose, written.nodes[k].from_before.pose);
+TEST(RobotMessageJson, AnyBytesOfRecordsComeBack) {
+  for (std::size_t count = 1; count < 600; count += 7) {
+    RobotMessage message;
+    for (std::size_t k = 0; k < count; ++k) message.records += static_cast<char>(37 * k + count);
+    EXPECT_EQ(read_message(Json::parse(message_json(message).dump())).records, message.records);
   }
-  ASSERT_EQ(part.observations.size(), 2U);
-  EXPECT_EQ(part.observations[0].robot, "c");
-  EXPECT_EQ(part.observations[1].robot, "b");
-  EXPECT_EQ(part.observations[0].node, 41U);
-  EXPECT_EQ(part.observations[0].t_s, written.observations[0].t_s);
-  EXPECT_EQ(part.observations[0].evidence.log_odds, -1.5);
-  expect_near(part.observations[0].T_i_j, written.observations[0].T_i_j);
-  ASSERT_EQ(part.evidence.size(), 1U);
-  EXPECT_EQ(part.evidence[0].by, "c");
-  EXPECT_EQ(part.evidence[0].t_s, written.evidence[0].t_s);
-  EXPECT_EQ(part.evidence[0].angles.scale, 0.25);
-}
-
-/// Nine digits of the covariance's entries would not be enough for its inverse.
-TEST(RobotMessageJson, RoundingKeepsInformation) {
-  const SE2::Jacobian written = covariance_of_way(1e-3, 0.1, 20.0 / 3, 40.0 / 7);
-  SharedPart part = example_part();
-  part.nodes[1].from_before.covariance = written;
-  const RobotMessage message{{}, {std::make_shared<const SharedPart>(part)}};
-  const RobotMessage back = read_message(Json::parse(message_json(message).dump()));
-  const SE2::Jacobian read = back.parts[0]->nodes[1].from_before.covariance;
-  EXPECT_LT((read - written).norm(), kRelative * written.norm());
-  EXPECT_LT((read.inverse() - written.inverse()).norm(), 1e-4 * written.inverse().norm());
 }
 
 TEST(RobotMessageJson, WhatHasBeenReadIsWrittenTheSame) {
@@ -131,10 +71,10 @@ TEST(RobotMessageJson, WhatHasBeenReadIsWrittenTheSame) {
   EXPECT_EQ(Json::parse(message_json(read_message(once)).dump()), once);
 }
 
-TEST(RobotMessageJson, WithoutStatusOrParts) {
+TEST(RobotMessageJson, WithoutStatusOrRecords) {
   const RobotMessage message = read_message(Json::parse(message_json({}).dump()));
   EXPECT_FALSE(message.status);
-  EXPECT_TRUE(message.parts.empty());
+  EXPECT_TRUE(message.records.empty());
 }
 
 void expect_refused(const std::function<void(Json&)>& change, const std::string& words) {
@@ -146,28 +86,13 @@ void expect_refused(const std::function<void(Json&)>& change, const std::string&
 TEST(RobotMessageJson, MessagesOfOthersAreRefused) {
   expect_refused([](Json& json) { json = "hello"; }, "not an object");
   expect_refused([](Json& json) { json.erase("format"); }, "no 'format'");
-  expect_refused([](Json& json) { json["format"] = "radioslam-rendezvous/2"; }, "'format'");
+  expect_refused([](Json& json) { json["format"] = "radioslam-rendezvous/1"; }, "'format'");
   expect_refused([](Json& json) { json["status"].erase("pose"); }, "no 'pose'");
   expect_refused([](Json& json) { json["status"]["number"] = -1; }, "'number'");
-  expect_refused([](Json& json) { json["status"]["knows"]["b"] = 0.5; }, "'knows'");
-}
-
-TEST(RobotMessageJson, PartsThatFitNoGraphAreRefused) {
-  const auto refuse = [](const std::function<void(Json&)>& change, const std::string& words) {
-    expect_refused([&](Json& json) { change(json["parts"][0]); }, words);
-  };
-  refuse([](Json& part) { part["nodes"] = Json::array(); }, "not well-formed");
-  refuse([](Json& part) { part["nodes"][1][0] = 0U; }, "not well-formed");
-  refuse([](Json& part) { part["nodes"][1][6] = 0; }, "not well-formed");
-  refuse([](Json& part) { part["nodes"][1].erase(11); }, "a list of 12");
-  refuse([](Json& part) { part["nodes"][1][3] = 2e9; }, "value 4 of a node");
-  refuse([](Json& part) { part["observations"][0][0] = 5U; }, "not well-formed");
-  refuse([](Json& part) { part["observations"][0][1] = 2U; }, "value 2 of an observation");
-  refuse([](Json& part) { part["observations"][0][6] = 0; }, "not well-formed");
-  refuse([](Json& part) { part["others"][0] = "*"; }, "'others'");
-  refuse([](Json& part) { part["nodes"] = Json::array_t(101); }, "a list of up to 100");
-  refuse([](Json& part) { part["observations"] = Json::array_t(151); }, "a list of up to 150");
-  refuse([](Json& part) { part["others"] = Json::array(); }, "does not name");
+  expect_refused([](Json& json) { json["status"]["knows"]["b"] = 0.5; }, "a version is not a list of 3");
+  expect_refused([](Json& json) { json["status"]["knows"]["*"] = {0, 1, 2}; }, "'knows'");
+  for (const char* text : {"A", "AA", "AAA", "AA==AA==", "A*==", "AAA=\n", "AB=="})
+    expect_refused([&](Json& json) { json["records"] = text; }, "'records'");
 }
 
 }  // namespace

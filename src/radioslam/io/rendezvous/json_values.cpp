@@ -8,6 +8,7 @@
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/base/suggestion.hpp"
 #include "radioslam/io/text/text.hpp"
+#include "radioslam/records/record_codec.hpp"
 
 namespace radioslam {
 namespace {
@@ -80,7 +81,7 @@ std::string whole_number_up_to(std::uint64_t largest) {
 }  // namespace
 
 bool is_robot_name(std::string_view name) {
-  return !name.empty() && name.size() <= kLongestName && name != "*";
+  return is_record_name(name) && name.size() <= kLongestName && name != "*";
 }
 
 void refuse_json(const std::string& reason) { throw InputError("line", 0, reason); }
@@ -193,7 +194,7 @@ std::uint64_t JsonRow::whole_number(std::uint64_t largest) {
 }
 
 SE2 JsonRow::pose() {
-  const double x = number(), y = number();
+  const double x = number(kMetres), y = number(kMetres);
   return {SE2::Point(x, y), number()};
 }
 

@@ -23,12 +23,14 @@ inline constexpr NumberKind kNotNegative{0, 1e9, "a number from 0 to 1e9"};
 inline constexpr NumberKind kPositive{std::numeric_limits<double>::denorm_min(), 1e9,
                                       "a positive number up to 1e9"};
 inline constexpr NumberKind kDecibels{-1000, 1000, "a number from -1000 to 1000"};
+/// What records have room for.
+inline constexpr NumberKind kMetres{-9e6, 9e6, "a number from -9e6 to 9e6"};
 /// Also of a clock that counts from 1970.
-inline constexpr NumberKind kSeconds{-1e11, 1e11, "a time in seconds"};
+inline constexpr NumberKind kSeconds{-2e9, 2e9, "a time in seconds"};
 
 /// Longest name of a robot in bytes.
 inline constexpr std::size_t kLongestName = 100;
-/// Whether the name can be a robot's: not empty, not too long, and not "*", which means all robots.
+/// Whether the name can be a robot's: one of a record, not too long, and not "*", which means all robots.
 bool is_robot_name(std::string_view name);
 
 [[noreturn]] void refuse_json(const std::string& reason);
