@@ -171,7 +171,7 @@ TEST(RobotEstimate, RecordsArePassedOnAsTheyAre) {
   EXPECT_EQ(walk.team[2].team(), (std::vector<std::string>{"a", "b", "c"}));
   const auto where = walk.team[2].pose_of("a", Stamp::from_seconds(10));
   ASSERT_TRUE(where);
-  EXPECT_LT((where->inverse() * walk.team[0].poses().back()).log().norm(), 0.01);
+  EXPECT_LT((where->inverse() * walk.team[0].poses().back()).log().norm(), 1e-6);
 }
 
 TEST(RobotEstimate, WithoutTheOthersLogASightingIsOfNoUseYet) {

@@ -41,6 +41,13 @@ SE2::Jacobian covariance_in(const PoseGraph2& graph, NormalEquations<SE2>& equat
   return covariance.allFinite() ? covariance : kUnknownVariance * SE2::Jacobian::Identity();
 }
 
+/// Odometry from one keyframe to a later one.
+UncertainPose<SE2> way_between(const ReadLog& log, std::uint32_t from, std::uint32_t to) {
+  UncertainPose<SE2> way = log.steps()[from + 1];
+  for (std::size_t k = std::size_t{from} + 2; k <= to; ++k) way = way * log.steps()[k];
+  return way;
+}
+
 }  // namespace
 
 void RobotEstimate::Contact::add(std::size_t at, const RelativePoseFactor<SE2>& seen) {
@@ -106,23 +113,21 @@ bool RobotEstimate::has_own_news() {
   return own_sightings_ != used_sightings_;
 }
 
-/// The others that sightings tie to this robot, the nearest first, as long as there are not too many poses.
+/// This robot and those that sightings tie to it, the nearest first, as long as there are not too many poses.
 RobotEstimate::Parts RobotEstimate::connected_parts() const {
   const auto most = static_cast<std::size_t>(params_.max_poses);
   Parts linked;
-  const auto link = [&](const std::string& robot, std::uint32_t keyframe) {
-    if (robot != logs_.robot()) linked[robot].keyframes.push_back(keyframe);
-  };
+  linked[logs_.robot()];
   for (const SightingBetween& each : between_) {
-    link(*each.i, each.sighting->keyframe);
-    link(*each.j, each.keyframe_j);
+    linked[*each.i].keyframes.push_back(each.sighting->keyframe);
+    linked[*each.j].keyframes.push_back(each.keyframe_j);
   }
   for (auto& [robot, part] : linked) {
     auto& list = part.keyframes;
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     if (list.size() > most / 2) list.erase(list.begin(), list.end() - static_cast<std::ptrdiff_t>(most / 2));
-    if (list.front() != 0) list.insert(list.begin(), 0);
+    if (list.empty() || list.front() != 0) list.insert(list.begin(), 0);
   }
   std::map<std::string_view, std::set<std::string_view>> links;
   for (const SightingBetween& each : between_) {
@@ -132,14 +137,17 @@ RobotEstimate::Parts RobotEstimate::connected_parts() const {
     links[*each.j].insert(*each.i);
   }
   Parts reached;
+  const auto latest = static_cast<std::uint32_t>(size() - 1);
+  Part& self = reached[logs_.robot()] = std::move(linked[logs_.robot()]);
+  if (self.keyframes.back() != latest) self.keyframes.push_back(latest);
   std::size_t poses = 0;
   std::vector<std::string_view> queue{logs_.robot()};
   for (std::size_t k = 0; k < queue.size(); ++k)
     for (const std::string_view next : links[queue[k]]) {
       const std::string name(next);
-      if (next == logs_.robot() || reached.contains(name)) continue;
+      if (reached.contains(name)) continue;
       poses += linked.at(name).keyframes.size();
-      if (poses > most && !reached.empty()) return reached;
+      if (poses > most && reached.size() > 1) return reached;
       queue.push_back(next);
       reached[name] = std::move(linked.at(name));
     }
@@ -148,7 +156,6 @@ RobotEstimate::Parts RobotEstimate::connected_parts() const {
 
 std::optional<std::size_t> RobotEstimate::pose_in(const Parts& parts, const std::string& robot,
                                                   std::uint32_t keyframe) const {
-  if (robot == logs_.robot()) return keyframe;
   const auto part = parts.find(robot);
   if (part == parts.end()) return std::nullopt;
   const auto place = part->second.place_of(keyframe);
@@ -157,9 +164,10 @@ std::optional<std::size_t> RobotEstimate::pose_in(const Parts& parts, const std:
 
 /// The common one where a start is known, or that of the first robot by name.
 std::string RobotEstimate::frame_of(const Parts& parts) const {
-  const auto has_start = [this](const auto& each) { return logs_.all().at(each.first).start().has_value(); };
-  if (own().start() || std::any_of(parts.begin(), parts.end(), has_start)) return {};
-  return parts.empty() ? logs_.robot() : std::min(logs_.robot(), parts.begin()->first);
+  const bool is_common = std::any_of(parts.begin(), parts.end(), [this](const auto& each) {
+    return logs_.all().at(each.first).start().has_value();
+  });
+  return is_common ? std::string() : parts.begin()->first;
 }
 
 /// Probability that a relative pose between two robots is right, or what else its information is scaled by.
@@ -173,27 +181,19 @@ double RobotEstimate::weight_of(const AngleEvidence& evidence) const {
 
 PoseGraph2 RobotEstimate::graph_of(const Parts& parts, const std::string& frame) {
   PoseGraph2 graph;
-  graph.poses = poses_;
-  const auto add_part = [&](const std::string& robot, std::size_t first, std::size_t count,
-                            auto keyframe_at) {
+  for (const auto& [robot, part] : parts) {
     const ReadLog& log = logs_.all().at(robot);
-    graph.poses.resize(std::max(graph.poses.size(), first + count));
+    graph.poses.resize(part.first + part.keyframes.size());
     graph.pose_fixed.resize(graph.poses.size(), false);
-    for (std::size_t k = 1; k < count; ++k) {
-      UncertainPose<SE2> step = log.steps()[keyframe_at(k - 1) + 1];
-      for (std::size_t next = keyframe_at(k - 1) + 2; next <= keyframe_at(k); ++next)
-        step = step * log.steps()[next];
+    for (std::size_t k = 1; k < part.keyframes.size(); ++k) {
+      const auto way = way_between(log, part.keyframes[k - 1], part.keyframes[k]);
       graph.relative_poses.push_back(
-          {PoseId(first + k - 1), PoseId(first + k), step.pose, inverse_of(step.covariance)});
+          {PoseId(part.first + k - 1), PoseId(part.first + k), way.pose, inverse_of(way.covariance)});
     }
-    if (!(frame.empty() ? log.start().has_value() : robot == frame)) return;
-    graph.poses[first] = log.start().value_or(SE2());
-    graph.pose_fixed[first] = true;
-  };
-  add_part(logs_.robot(), 0, size(), [](std::size_t k) { return k; });
-  for (const auto& [robot, part] : parts)
-    add_part(robot, part.first, part.keyframes.size(),
-             [&keyframes = part.keyframes](std::size_t k) { return std::size_t{keyframes[k]}; });
+    if (!(frame.empty() ? log.start().has_value() : robot == frame)) continue;
+    graph.poses[part.first] = log.start().value_or(SE2());
+    graph.pose_fixed[part.first] = true;
+  }
   add_sightings(parts, graph);
   return graph;
 }
@@ -211,8 +211,8 @@ void RobotEstimate::add_sightings(const Parts& parts, PoseGraph2& graph) {
     RelativePoseFactor<SE2> factor{PoseId(*i), PoseId(*j), each.sighting->T_i_j,
                                    inverse_of(each.sighting->covariance)};
     factor.weight = std::max(weight, kSmallestWeight);
-    for (const std::size_t end : {*i, *j})
-      if (end < size() && weight >= kRightWeight) contact_.add(end, factor);
+    if (weight >= kRightWeight && *each.i == logs_.robot()) contact_.add(each.sighting->keyframe, factor);
+    if (weight >= kRightWeight && *each.j == logs_.robot()) contact_.add(each.keyframe_j, factor);
     graph.relative_poses.push_back(factor);
   }
 }
@@ -220,14 +220,14 @@ void RobotEstimate::add_sightings(const Parts& parts, PoseGraph2& graph) {
 /// Initial values: as they were after the last solution, others where something measured places them.
 void RobotEstimate::place(const Parts& parts, PoseGraph2& graph) const {
   std::vector<bool> placed = graph.pose_fixed;
-  std::fill_n(placed.begin(), size(), true);
   for (const auto& [robot, part] : parts) {
     const auto before = parts_.find(robot);
-    if (before == parts_.end()) continue;
     for (std::size_t k = 0; k < part.keyframes.size(); ++k) {
-      const auto place = before->second.place_of(part.keyframes[k]);
-      if (!place || placed[part.first + k]) continue;
-      graph.poses[part.first + k] = before->second.poses[*place];
+      if (placed[part.first + k]) continue;
+      const auto place = before == parts_.end() ? std::nullopt : before->second.place_of(part.keyframes[k]);
+      if (robot != logs_.robot() && !place) continue;
+      graph.poses[part.first + k] =
+          robot == logs_.robot() ? poses_[part.keyframes[k]] : before->second.poses[*place];
       placed[part.first + k] = true;
     }
   }
@@ -245,20 +245,40 @@ void RobotEstimate::place(const Parts& parts, PoseGraph2& graph) const {
   }
 }
 
+/// The own poses, of which the graph has some: of those in between, what odometry expects given both ends,
+/// to first order.
+void RobotEstimate::spread(const Part& self) {
+  poses_.front() = self.poses.front();
+  for (std::size_t n = 1; n < self.keyframes.size(); ++n) {
+    const std::uint32_t from = self.keyframes[n - 1], to = self.keyframes[n];
+    const SE2& begin = self.poses[n - 1];
+    poses_[to] = self.poses[n];
+    if (to == from + 1) continue;
+    const UncertainPose<SE2> whole = way_between(own(), from, to);
+    const SE2::Tangent missed =
+        inverse_of(whole.covariance) * (whole.pose.inverse() * begin.inverse() * self.poses[n]).log();
+    UncertainPose<SE2> way;
+    for (std::uint32_t k = from + 1; k < to; ++k) {
+      way = way * own().steps()[k];
+      const SE2::Jacobian carry = (whole.pose.inverse() * way.pose).adjoint();
+      poses_[k] = begin * way.pose * SE2::exp(way.covariance * (carry.transpose() * missed));
+    }
+  }
+}
+
 bool RobotEstimate::solve() {
   refresh();
   if (!is_old_) return false;
   is_old_ = false;
   used_sightings_ = own_sightings_;
   Parts parts = connected_parts();
-  std::size_t poses = size();
-  std::vector<std::string> team{logs_.robot()};
+  std::size_t poses = 0;
+  std::vector<std::string> team;
   for (auto& [robot, part] : parts) {
     part.first = poses;
     poses += part.keyframes.size();
     team.push_back(robot);
   }
-  std::sort(team.begin(), team.end());
   const std::string frame = frame_of(parts);
   PoseGraph2 graph = graph_of(parts, frame);
   place(parts, graph);
@@ -268,9 +288,10 @@ bool RobotEstimate::solve() {
   NormalEquations<SE2> equations(graph);
   optimize(graph, equations, optimizer);
   const auto at = [&](std::size_t k) { return graph.poses.begin() + static_cast<std::ptrdiff_t>(k); };
-  poses_.assign(at(0), at(size()));
   for (auto& [robot, part] : parts) part.poses.assign(at(part.first), at(part.first + part.keyframes.size()));
-  latest_ = {poses_.back(), covariance_in(graph, equations, PoseId(size() - 1))};
+  const Part& self = parts.at(logs_.robot());
+  spread(self);
+  latest_ = {poses_.back(), covariance_in(graph, equations, PoseId(self.first + self.poses.size() - 1))};
   since_contact_ = {SE2(), contact_.covariance()};
   for (std::size_t k = contact_.node + 1; k < size(); ++k) since_contact_ = since_contact_ * own().steps()[k];
   parts_ = std::move(parts);

@@ -1,10 +1,11 @@
-// One robot's estimate in a team that is seldom connected: its own trajectory, and of the logs that it knows
-// (robot_logs.hpp) the poses that sightings tie to it, solved together as one pose graph in the plane.
+// One robot's estimate in a team that is seldom connected: of the logs that it knows (robot_logs.hpp), the
+// poses that sightings tie together, with odometry condensed between them, solved as one pose graph in the
+// plane; the robot's other poses are placed between its own of these.
 //
 // It needs nobody's answer to be solved, and no round in which all take part: whatever has arrived is used,
-// and what is still missing is missing. Robots that know the same records have the same estimate, that of a
-// central solution, up to condensing the others' odometry between such poses to first order, as long as it
-// has no more of them than `max_poses`.
+// and what is still missing is missing. Robots that know the same records have the same estimate, as long as
+// the others have no more poses in it than `max_poses`: that of a central solution, up to condensing odometry
+// to first order. Cost of a solution: that of the graph of these poses, and a sum over the logs.
 // Sources: Cunningham et al. 2010, DDF-SAM; Lazaro et al. 2013 (condensed measurements).
 #pragma once
 
@@ -85,7 +86,7 @@ class RobotEstimate {
   std::size_t sightings_with(const std::string& robot, double since_s) const;
 
  private:
-  /// Another robot's poses in the graph, by their numbers in its log; its start first.
+  /// A robot's poses in the graph, by their numbers in its log; its start first.
   struct Part {
     std::vector<std::uint32_t> keyframes;
     std::size_t first = 0;  ///< in the graph
@@ -109,6 +110,7 @@ class RobotEstimate {
   PoseGraph2 graph_of(const Parts& parts, const std::string& frame);
   void add_sightings(const Parts& parts, PoseGraph2& graph);
   void place(const Parts& parts, PoseGraph2& graph) const;
+  void spread(const Part& self);
   double weight_of(const AngleEvidence& evidence) const;
 
   RobotEstimateParams params_;
