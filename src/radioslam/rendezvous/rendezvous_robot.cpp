@@ -533,7 +533,7 @@ TickAnswer RendezvousRobot::tick(const DecisionTick& tick) {
 
 FinalTrajectory RendezvousRobot::finish() {
   say_observations();
-  team_.solve();
+  team_.solve(RobotEstimate::Odometry::kWhole);
   const auto seconds = [](Stamp stamp) { return static_cast<double>(stamp.ns) / 1e9; };
   FinalTrajectory trajectory;
   for (std::size_t k = 0; k < team_.size(); ++k)

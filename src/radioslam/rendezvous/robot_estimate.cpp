@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -266,12 +267,18 @@ void RobotEstimate::spread(const Part& self) {
   }
 }
 
-bool RobotEstimate::solve() {
+bool RobotEstimate::solve(Odometry odometry) {
   refresh();
-  if (!is_old_) return false;
+  const bool whole = odometry == Odometry::kWhole;
+  if (!is_old_ && !whole) return false;
   is_old_ = false;
   used_sightings_ = own_sightings_;
   Parts parts = connected_parts();
+  if (whole)
+    for (auto& [robot, part] : parts) {
+      part.keyframes.resize(std::size_t{part.keyframes.back()} + 1);
+      std::iota(part.keyframes.begin(), part.keyframes.end(), 0U);
+    }
   std::size_t poses = 0;
   std::vector<std::string> team;
   for (auto& [robot, part] : parts) {
@@ -282,7 +289,7 @@ bool RobotEstimate::solve() {
   const std::string frame = frame_of(parts);
   PoseGraph2 graph = graph_of(parts, frame);
   place(parts, graph);
-  if (team != team_ || frame != frame_) initialise(graph, GivenValues::kComplete);
+  if (whole || team != team_ || frame != frame_) initialise(graph, GivenValues::kComplete);
   OptimizerParams optimizer;
   optimizer.relative_cost_tolerance = kCostTolerance;
   NormalEquations<SE2> equations(graph);

@@ -63,8 +63,14 @@ class RobotEstimate {
 
   /// Whether there are observations of or by this robot that the estimate does not contain.
   bool has_own_news();
-  /// Solves for what is known; false, and nothing changes, if nothing is new since the last time.
-  bool solve();
+  /// How the odometry between poses that sightings tie together is used.
+  enum class Odometry {
+    kCondensed,  ///< to first order
+    kWhole,      ///< step by step: what a central solution would say, at a higher cost
+  };
+  /// Solves for what is known; false, and nothing changes, if nothing is new since the last time, unless the
+  /// odometry is used as a whole.
+  bool solve(Odometry odometry = Odometry::kCondensed);
 
   std::size_t size() const { return poses_.size(); }
   const std::vector<SE2>& poses() const { return poses_; }    ///< the estimate, in frame()
