@@ -29,6 +29,8 @@ struct Sighting {
 
 class ReadLog {
  public:
+  explicit ReadLog(std::uint32_t life) : life_(life) {}
+
   void take(const Record& record);
   /// The robot has said all it measured until a time.
   void is_whole_until(Stamp stamp) { until_ = std::max(until_, stamp); }
@@ -39,6 +41,7 @@ class ReadLog {
   std::vector<std::vector<ArrivalPath>> arrivals(const std::string& robot, std::uint32_t keyframe,
                                                  Stamp stamp) const;
 
+  std::uint32_t life() const { return life_; }  ///< which recording of the robot it is
   Stamp until() const { return until_; }
   std::uint64_t records() const { return records_; }
   const std::optional<SE2>& start() const { return start_; }  ///< in the common frame, where it is known
@@ -57,6 +60,7 @@ class ReadLog {
     Stamp stamp;
     std::vector<ArrivalPath> paths;
   };
+  std::uint32_t life_;
   std::uint64_t records_ = 0;
   Stamp until_{std::numeric_limits<std::int64_t>::min()};
   std::optional<SE2> start_;

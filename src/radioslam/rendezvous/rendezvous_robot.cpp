@@ -92,10 +92,10 @@ void RendezvousRobot::hear(const HeardPacket& packet) {
   while (link.packets.size() > kKeptNodes) link.packets.erase(link.packets.begin());
   if (!packet.message) return;
   const auto& status = packet.message->status;
-  if (status) team_.logs().note(status->knows);
   if (status && (!link.status || status->number > link.status->number)) {
     if (!link.status || status->walked_m != link.status->walked_m) link.walked_tick = ticks_;
     link.status = {packet.message, &*status};
+    team_.logs().note(status->knows);
     link.status_tick = ticks_;
   }
   team_.logs().accept(packet.message->records);

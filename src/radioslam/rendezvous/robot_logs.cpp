@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "radioslam/records/record_codec.hpp"
@@ -43,7 +44,7 @@ void RobotLogs::is_whole_until(Stamp now) {
 
 /// What records say that were not read yet, up to the first gap.
 void RobotLogs::read(const std::string& robot, const KnownLog& log) {
-  ReadLog& known = read_[robot];
+  ReadLog& known = read_.try_emplace(robot, log.life).first->second;
   for (auto next = log.records.find(known.records()); next != log.records.end();
        next = log.records.find(known.records())) {
     const auto record = decode_record(next->second);
@@ -65,8 +66,8 @@ void RobotLogs::reconsider(const std::string& robot, const Record& record) {
     links_[closure->other].insert(robot);
   }
   const auto* angles = std::get_if<AnglesRecord>(&record);
-  if (!angles || angles->at.keyframe >= read_[robot].stamps().size()) return;
-  const Stamp since = read_[robot].stamps()[angles->at.keyframe];
+  if (!angles || angles->at.keyframe >= read_.at(robot).stamps().size()) return;
+  const Stamp since = read_.at(robot).stamps()[angles->at.keyframe];
   const auto forget = [&](const std::string& from, const std::string& of) {
     const auto log = read_.find(from);
     if (log == read_.end()) return;
@@ -86,14 +87,16 @@ void RobotLogs::accept(std::string_view bytes) {
 
 void RobotLogs::note(const std::map<std::string, LogVersion>& known) {
   for (const auto& [robot, version] : known) {
-    if (robot == robot_) continue;
-    const auto log = heard_.robots().find(robot);
-    if (log != heard_.robots().end() && version.life < log->second.life) continue;
-    if (log != heard_.robots().end() && version.life > log->second.life) {
+    const auto log = read_.find(robot);
+    const bool is_known = log != read_.end();
+    if (robot == robot_ || (is_known && version.life < log->second.life())) continue;
+    if (is_known && version.life > log->second.life()) {
       heard_.forget(robot);
-      read_.erase(robot);
+      read_.erase(log);
       has_news_ = true;
       ++changes_;
+    } else if (is_known && version.until_s <= log->second.until().seconds()) {
+      continue;
     }
     LogVersion& said = said_[robot];
     if (std::pair(said.life, said.until_s) < std::pair(version.life, version.until_s)) said = version;
@@ -103,12 +106,11 @@ void RobotLogs::note(const std::map<std::string, LogVersion>& known) {
 
 std::map<std::string, LogVersion> RobotLogs::versions(double now_s) const {
   std::map<std::string, LogVersion> versions;
-  for (const auto& [robot, log] : read_) {
-    if (log.stamps().empty()) continue;
-    versions[robot] = robot == robot_
-                          ? LogVersion{own_.life, log.records(), now_s}
-                          : LogVersion{heard_.robots().at(robot).life, log.records(), log.until().seconds()};
-  }
+  for (const auto& [robot, log] : read_)
+    if (!log.stamps().empty())
+      versions.emplace_hint(
+          versions.end(), robot,
+          LogVersion{log.life(), log.records(), robot == robot_ ? now_s : log.until().seconds()});
   return versions;
 }
 
@@ -119,20 +121,19 @@ std::pair<std::string, std::uint64_t> RobotLogs::records(const std::string& robo
 }
 
 std::vector<std::string> RobotLogs::around(const std::string& robot, int hops) const {
-  std::vector<std::string> reached{robot};
-  std::vector<int> depth{0};
-  for (std::size_t k = 0; k < reached.size() && depth[k] < hops; ++k) {
-    const auto links = links_.find(reached[k]);
-    if (links == links_.end()) continue;
-    for (const std::string& next : links->second) {
-      if (std::find(reached.begin(), reached.end(), next) != reached.end()) continue;
-      reached.push_back(next);
-      depth.push_back(depth[k] + 1);
-    }
+  std::vector<std::string> list, last{robot};
+  std::set<std::string_view> reached{robot};
+  for (int hop = 0; hop < hops && !last.empty(); ++hop) {
+    std::vector<std::string> next;
+    for (const std::string& from : last)
+      if (const auto links = links_.find(from); links != links_.end())
+        for (const std::string& to : links->second)
+          if (reached.insert(to).second) next.push_back(to);
+    std::copy_if(next.begin(), next.end(), std::back_inserter(list),
+                 [this](const std::string& each) { return read_.contains(each); });
+    last = std::move(next);
   }
-  reached.erase(reached.begin());
-  std::erase_if(reached, [this](const std::string& each) { return !read_.contains(each); });
-  return reached;
+  return list;
 }
 
 /// Against a direction drawn evenly, the one that a sighting predicts at either end.
