@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -165,6 +164,7 @@ class CarriedFactors {
   /// Those other than odometry, which has the variances that were found before.
   void add_relative_poses() {
     const auto& factors = before_.team.graph.relative_poses;
+    std::vector<std::pair<RelativePoseFactor<Pose>, FactorOrigin>> others;
     std::map<std::size_t, double> scale;  // by robot
     std::map<std::pair<std::size_t, Stamp>, const RelativePoseFactor<Pose>*> steps;
     const auto key = [](const FactorOrigin& origin) {
@@ -179,7 +179,7 @@ class CarriedFactors {
       RelativePoseFactor<Pose> factor = factors[k];
       factor.i = same_.now(factor.i);
       factor.j = same_.now(factor.j);
-      added_.emplace_back(factor, origin);
+      others.emplace_back(factor, origin);
     }
     auto& graph = joint_.team.graph;
     for (std::size_t k = 0; k < graph.relative_poses.size(); ++k) {
@@ -194,7 +194,7 @@ class CarriedFactors {
     for (std::size_t k = 0; k < graph.relative_poses.size(); ++k)
       if (const auto of = scale.find(joint_.origins.relative_poses[k].robot_i.index()); of != scale.end())
         graph.relative_poses[k].information *= of->second;
-    for (const auto& [factor, origin] : added_) add_factor(joint_, factor, origin);
+    for (const auto& [factor, origin] : others) add_factor(joint_, factor, origin);
   }
 
   void add_ranges() {
@@ -222,14 +222,7 @@ class CarriedFactors {
   const Correspondence& same_;
   const JointGraph<Pose>& before_;
   JointGraph<Pose>& joint_;
-  std::vector<std::pair<RelativePoseFactor<Pose>, FactorOrigin>> added_;
 };
-
-template <class Pose>
-bool has_same_robots(const JointGraph<Pose>& a, const JointGraph<Pose>& b) {
-  return std::equal(a.robots.begin(), a.robots.end(), b.robots.begin(), b.robots.end(),
-                    [](const RobotVariables& x, const RobotVariables& y) { return x.id == y.id; });
-}
 
 }  // namespace
 
@@ -246,7 +239,7 @@ TeamAlignment<Pose> carried_alignment(const TeamEstimate<Pose>& before, const Jo
 template <class Pose>
 std::optional<TeamEstimate<Pose>> extended(const TeamEstimate<Pose>& before, JointGraph<Pose> joint) {
   const Correspondence same(before.joint, joint);
-  if (!has_same_robots(before.joint, joint) || !same.has_all()) return std::nullopt;
+  if (!are_same_robots(before.joint.robots, joint.robots) || !same.has_all()) return std::nullopt;
   TeamEstimate<Pose> team{before.measured, carried_alignment(same, before, joint), before.judgement, {}, {}};
   CarriedFactors<Pose>(same, before.joint, joint).add();
   carry_values(same, before.joint, joint);

@@ -4,12 +4,19 @@
 // follow by the odometry since. Nothing is estimated here.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "radioslam/joint/team_estimate.hpp"
 
 namespace radioslam {
+
+/// Whether these are robots of the same names, in the same order.
+bool are_same_robots(const auto& a, const auto& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y) { return x.id == y.id; });
+}
 
 /// Sets the values of `joint`, newly built, to those of the estimate before.
 template <class Pose>

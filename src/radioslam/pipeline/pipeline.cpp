@@ -437,12 +437,6 @@ std::optional<TeamSolution<Pose>> extend(const RunSetup& run, const TeamSolution
   return TeamSolution<Pose>{*std::move(team), last.radio, last.places, Effort::kExtend, last.weight_by_links};
 }
 
-template <class Pose>
-bool has_same_robots(const Mission& mission, const TeamSolution<Pose>& last) {
-  return std::equal(mission.robots.begin(), mission.robots.end(), last.team.joint.robots.begin(),
-                    last.team.joint.robots.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
-}
-
 std::size_t fingerprints_of(const Mission& mission) {
   std::size_t count = 0;
   for (const Robot& robot : mission.robots) count += robot.wifi.size();
@@ -456,7 +450,7 @@ TeamSolution<Pose> estimate(const TeamView& view, const TeamSolution<Pose>* last
                             const RunParams& params, const RunOptions& options, const Progress& progress) {
   constexpr double kRefitGrowth = 1.25;  // of the number of fingerprints
   const Mission& recorded = view.logged.mission;
-  const bool continues = last && has_same_robots(recorded, *last);
+  const bool continues = last && are_same_robots(recorded.robots, last->team.joint.robots);
   StageClock timed;
   RunInput<Pose> input{recorded, recorded, nullptr, view.scans};
   add_logged_closures(view.logged, input);
