@@ -38,7 +38,8 @@ std::unique_ptr<const StretchGrid> grid_around(const ScanKeyframes& keyframes,
   const auto add = [&](std::size_t k, const SE2& T_j_k) {
     StretchView& view = views.emplace_back();
     view.T_stretch_scan = T_j_k;
-    for (const Surfel& surfel : keyframes.clouds[k].read()->all)
+    const auto cloud = keyframes.clouds[k].read();
+    for (const Surfel& surfel : cloud->all)
       view.points.push_back(surfel.position.head<2>().cast<double>());
   };
   add(j, SE2());
