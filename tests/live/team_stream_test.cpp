@@ -57,6 +57,23 @@ TEST(TeamStream, RobotsComeToShareAFrameAndStayThere) {
   EXPECT_EQ(joins, static_cast<long>(simulated.mission.robots.size()) - 1);
 }
 
+TEST(TeamStream, SaysWhereAFrameStandsOnClosuresAlone) {
+  const auto is_by_closures = [](const TeamEvent& event) {
+    return event.is_join && event.what.find("by closures alone") != std::string::npos;
+  };
+  const auto& with_links = streamed_town().team.events;
+  EXPECT_TRUE(std::none_of(with_links.begin(), with_links.end(), is_by_closures));
+  CityParams seen = town();
+  seen.matches.matches_true = 60;
+  Simulation simulated = simulate_city(seen, 3);
+  simulated.mission.ranges.clear();
+  simulated.mission.aoa_measurements.clear();
+  const auto without = stream(simulated).events;
+  const auto joins = std::count_if(without.begin(), without.end(), [](const auto& e) { return e.is_join; });
+  EXPECT_GT(joins, 0);
+  EXPECT_EQ(std::count_if(without.begin(), without.end(), is_by_closures), joins);
+}
+
 TEST(TeamStream, EveryKeyframeOfTheLogsIsSaidOnceInTimeOrder) {
   const auto& [simulated, team] = streamed_town();
   std::vector<std::uint32_t> next(simulated.mission.robots.size(), 0);

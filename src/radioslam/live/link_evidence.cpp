@@ -18,8 +18,10 @@ std::size_t unjoined_links(const Mission& logged, const TeamEstimate<Pose>* team
     frame[r] = -1 - static_cast<int>(r);
     if (!is_aligned) continue;
     const auto& robots = team->joint.robots;
-    for (std::size_t b = 0; b < robots.size(); ++b)
-      if (robots[b].id == logged.robots[r].id) frame[r] = team->alignment.segments.of_segment[b];
+    for (std::size_t p = 0; p < team->joint.robot_of_segment.size(); ++p) {
+      const bool is_of_robot = robots[team->joint.robot_of_segment[p]].id == logged.robots[r].id;
+      if (is_of_robot && frame[r] < 0) frame[r] = team->alignment.segments.of_segment[p];
+    }
   }
   const auto add = [&](RobotIndex i, RobotIndex j) {
     if (i.valid() && j.valid() && frame[i.index()] != frame[j.index()])

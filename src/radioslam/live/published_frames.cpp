@@ -57,7 +57,8 @@ std::vector<TeamEvent> PublishedFrames::move_to(const TeamEstimate<Pose>& team, 
       return start_of(team.joint, robot, keyframes[numbers[robot]]);
     };
     const SE3 T_frame_graph = is_own ? SE3() : start(of).inverse();
-    move(numbers[r], {numbers[of], T_frame_graph * start(r)}, now,
+    const bool by_closures = !connected_without_matches(team.alignment, RobotIndex(r), RobotIndex(of));
+    move(numbers[r], {numbers[of], T_frame_graph * start(r), by_closures}, now,
          in_dimension<Pose>(keyframes[numbers[r]].said.back().pose), events);
   }
   return events;
@@ -70,12 +71,14 @@ std::size_t PublishedFrames::number_of(const std::string& robot) const {
 void PublishedFrames::move(std::size_t robot, const PublishedFrame& to, Stamp now, const SE3& odometry,
                            std::vector<TeamEvent>& events) {
   PublishedFrame& frame = frames_[robot];
+  const std::string is_in = "robot " + robots_[robot] + " is in the frame of robot " + robots_[to.frame];
   if (frame.frame != to.frame) {
     events.push_back(
         {now,
          to.frame == robot
              ? "robot " + robots_[robot] + " is in a frame of its own again: its alignment is ambiguous"
-             : "robot " + robots_[robot] + " is in the frame of robot " + robots_[to.frame],
+             : is_in +
+                   (to.is_by_closures_alone ? ", by closures alone: places that look alike may deceive" : ""),
          true});
   } else if (robot != to.frame) {
     const SE3 moved = (frame.T_frame_start * odometry).inverse() * (to.T_frame_start * odometry);
@@ -84,6 +87,8 @@ void PublishedFrames::move(std::size_t robot, const PublishedFrame& to, Stamp no
       events.push_back({now, "robot " + robots_[robot] + " moves by " + rounded(m, 1) + " m and " +
                                  rounded(rad * 180 / std::numbers::pi, 0) +
                                  " degrees in the frame of robot " + robots_[to.frame]});
+    if (frame.is_by_closures_alone && !to.is_by_closures_alone)
+      events.push_back({now, is_in + " by more than closures now"});
   }
   frame = to;
 }

@@ -1,7 +1,8 @@
 // Where the robots' odometry lies in the frames of the team, as it is published.
 //
 // A frame is named by its first robot. Robots whose alignment is ambiguous are in frames of their own. What
-// moves by more than a metre or six degrees is an event, and so is a robot that comes into another frame.
+// moves by more than a metre or six degrees is an event, and so is a robot that comes into another frame;
+// where closures alone put it there, the event says so.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +24,7 @@ struct TeamEvent {
 struct PublishedFrame {
   std::size_t frame = 0;  ///< its first robot
   SE3 T_frame_start;
+  bool is_by_closures_alone = false;  ///< no link or fix relates the robot to the first one
 };
 
 /// A pose as an estimate in this dimension has it: in the plane, at height 0.
