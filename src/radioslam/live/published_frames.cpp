@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "radioslam/joint/team_continuation.hpp"
 
@@ -33,50 +34,43 @@ SE3 start_of(const JointGraph<Pose>& joint, std::size_t r, const LoggedKeyframes
 
 }  // namespace
 
-PublishedFrames::PublishedFrames(const std::vector<std::string>& robots) : robots_(robots) {
-  for (std::size_t r = 0; r < robots.size(); ++r) frames_.push_back({r, {}});
+PublishedFrame PublishedFrames::of(const std::string& robot) const {
+  const auto found = frames_.find(robot);
+  return found == frames_.end() ? PublishedFrame{robot, {}} : found->second;
 }
 
 template <class Pose>
 std::vector<TeamEvent> PublishedFrames::move_to(const TeamEstimate<Pose>& team, Stamp now,
-                                                const std::vector<LoggedKeyframes>& keyframes) {
-  std::vector<std::size_t> numbers;
-  for (const RobotVariables& robot : team.joint.robots) numbers.push_back(number_of(robot.id));
+                                                const std::map<std::string, LoggedKeyframes>& keyframes) {
+  const auto& robots = team.joint.robots;
   const std::vector<int> component = settled_components(team, kCertain);
-  std::map<int, std::size_t> first;  // robot of the graph, by component
-  for (std::size_t r = 0; r < component.size(); ++r) {
-    const auto [known, is_new] = first.emplace(component[r], r);
-    if (!is_new && numbers[r] < numbers[known->second]) known->second = r;
-  }
+  std::map<int, std::size_t> first;  // robot, by component
+  for (std::size_t r = 0; r < component.size(); ++r) first.emplace(component[r], r);
   std::vector<TeamEvent> events;
   for (std::size_t r = 0; r < component.size(); ++r) {
     // A frame that is not the graph's own starts where its first robot's odometry does.
     const std::size_t of = first.at(component[r]);
     const bool is_own = team.alignment.component[of] == component[r];
     const auto start = [&](std::size_t robot) {
-      return start_of(team.joint, robot, keyframes[numbers[robot]]);
+      return start_of(team.joint, robot, keyframes.at(robots[robot].id));
     };
     const SE3 T_frame_graph = is_own ? SE3() : start(of).inverse();
     const bool by_closures = !connected_without_matches(team.alignment, RobotIndex(r), RobotIndex(of));
-    move(numbers[r], {numbers[of], T_frame_graph * start(r), by_closures}, now,
-         in_dimension<Pose>(keyframes[numbers[r]].said.back().pose), events);
+    move(robots[r].id, {robots[of].id, T_frame_graph * start(r), by_closures}, now,
+         in_dimension<Pose>(keyframes.at(robots[r].id).said.back().pose), events);
   }
   return events;
 }
 
-std::size_t PublishedFrames::number_of(const std::string& robot) const {
-  return static_cast<std::size_t>(std::find(robots_.begin(), robots_.end(), robot) - robots_.begin());
-}
-
-void PublishedFrames::move(std::size_t robot, const PublishedFrame& to, Stamp now, const SE3& odometry,
+void PublishedFrames::move(const std::string& robot, PublishedFrame to, Stamp now, const SE3& odometry,
                            std::vector<TeamEvent>& events) {
-  PublishedFrame& frame = frames_[robot];
-  const std::string is_in = "robot " + robots_[robot] + " is in the frame of robot " + robots_[to.frame];
+  const PublishedFrame frame = of(robot);
+  const std::string is_in = "robot " + robot + " is in the frame of robot " + to.frame;
   if (frame.frame != to.frame) {
     events.push_back(
         {now,
          to.frame == robot
-             ? "robot " + robots_[robot] + " is in a frame of its own again: its alignment is ambiguous"
+             ? "robot " + robot + " is in a frame of its own again: its alignment is ambiguous"
              : is_in +
                    (to.is_by_closures_alone ? ", by closures alone: places that look alike may deceive" : ""),
          true});
@@ -84,18 +78,18 @@ void PublishedFrames::move(std::size_t robot, const PublishedFrame& to, Stamp no
     const SE3 moved = (frame.T_frame_start * odometry).inverse() * (to.T_frame_start * odometry);
     const double m = moved.translation().norm(), rad = moved.log().tail<3>().norm();
     if (m > kMoved_m || rad > kMoved_rad)
-      events.push_back({now, "robot " + robots_[robot] + " moves by " + rounded(m, 1) + " m and " +
+      events.push_back({now, "robot " + robot + " moves by " + rounded(m, 1) + " m and " +
                                  rounded(rad * 180 / std::numbers::pi, 0) +
-                                 " degrees in the frame of robot " + robots_[to.frame]});
+                                 " degrees in the frame of robot " + to.frame});
     if (frame.is_by_closures_alone && !to.is_by_closures_alone)
       events.push_back({now, is_in + " by more than closures now"});
   }
-  frame = to;
+  frames_[robot] = std::move(to);
 }
 
 template std::vector<TeamEvent> PublishedFrames::move_to(const TeamEstimate<SE2>&, Stamp,
-                                                         const std::vector<LoggedKeyframes>&);
+                                                         const std::map<std::string, LoggedKeyframes>&);
 template std::vector<TeamEvent> PublishedFrames::move_to(const TeamEstimate<SE3>&, Stamp,
-                                                         const std::vector<LoggedKeyframes>&);
+                                                         const std::map<std::string, LoggedKeyframes>&);
 
 }  // namespace radioslam

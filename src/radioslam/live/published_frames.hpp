@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct TeamEvent {
 
 /// Where a robot's odometry starts in its frame.
 struct PublishedFrame {
-  std::size_t frame = 0;  ///< its first robot
+  std::string frame;  ///< its first robot
   SE3 T_frame_start;
   bool is_by_closures_alone = false;  ///< no link or fix relates the robot to the first one
 };
@@ -35,25 +36,19 @@ SE3 in_dimension(const SE3& pose) {
 
 class PublishedFrames {
  public:
-  /// All robots in frames of their own.
-  explicit PublishedFrames(const std::vector<std::string>& robots);
+  /// Of a robot; one that was in no estimate is in a frame of its own.
+  PublishedFrame of(const std::string& robot) const;
 
-  /// Of a robot, by its number.
-  const PublishedFrame& of(std::size_t robot) const { return frames_[robot]; }
-  std::size_t size() const { return frames_.size(); }
-
-  /// Moves the frames to the estimate. `keyframes`: of every robot, as its log says them.
+  /// Moves the frames to the estimate. `keyframes`: of its robots, as their logs say them.
   template <class Pose>
   std::vector<TeamEvent> move_to(const TeamEstimate<Pose>& team, Stamp now,
-                                 const std::vector<LoggedKeyframes>& keyframes);
+                                 const std::map<std::string, LoggedKeyframes>& keyframes);
 
  private:
-  std::size_t number_of(const std::string& robot) const;
-  void move(std::size_t robot, const PublishedFrame& to, Stamp now, const SE3& odometry,
+  void move(const std::string& robot, PublishedFrame to, Stamp now, const SE3& odometry,
             std::vector<TeamEvent>& events);
 
-  std::vector<std::string> robots_;
-  std::vector<PublishedFrame> frames_;
+  std::map<std::string, PublishedFrame> frames_;
 };
 
 }  // namespace radioslam

@@ -1,5 +1,6 @@
 radioslam_room(live
   SOURCES
+    growing_estimate.cpp
     link_evidence.cpp
     published_frames.cpp
     scans_so_far.cpp

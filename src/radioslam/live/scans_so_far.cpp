@@ -56,16 +56,16 @@ ScanOdometry ScansSoFar::update(const LoggedKeyframes& known, const ScanLoopSear
   return scans;
 }
 
-MeasuredScans measured_so_far(std::vector<ScansSoFar>& scans, const std::vector<LoggedKeyframes>& keyframes,
-                              const std::vector<std::size_t>& numbers, const ScanLoopSearch& search,
-                              const Progress& progress) {
+MeasuredScans measured_so_far(std::map<std::string, ScansSoFar>& scans, const std::vector<Robot>& robots,
+                              const std::map<std::string, LoggedKeyframes>& keyframes,
+                              const ScanLoopSearch& search, const Progress& progress) {
   MeasuredScans measured;
-  for (std::size_t r = 0; r < numbers.size(); ++r) {
-    ScansSoFar& of_robot = scans[numbers[r]];
+  for (std::size_t r = 0; r < robots.size(); ++r) {
     auto& of = measured.robots.emplace_back();
-    if (!of_robot.has_any(keyframes[numbers[r]])) continue;
-    of = of_robot.update(keyframes[numbers[r]], search, progress);
-    for (const ScanLoop& loop : of_robot.loops().loops)
+    const auto found = scans.find(robots[r].id);
+    if (found == scans.end() || !found->second.has_any(keyframes.at(robots[r].id))) continue;
+    of = found->second.update(keyframes.at(robots[r].id), search, progress);
+    for (const ScanLoop& loop : found->second.loops().loops)
       measured.closures.push_back(
           {RobotIndex(r), of->keyframe_stamps[loop.i], of->keyframe_stamps[loop.j], loop});
   }

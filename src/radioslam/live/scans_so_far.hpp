@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "radioslam/front_end/replay.hpp"
@@ -40,10 +42,9 @@ class ScansSoFar {
   ScanLoops loops_;
 };
 
-/// What the scans of these robots say among the keyframes known of them, with the loops of each. `numbers`:
-/// of the robots that the result is of, in its order.
-MeasuredScans measured_so_far(std::vector<ScansSoFar>& scans, const std::vector<LoggedKeyframes>& keyframes,
-                              const std::vector<std::size_t>& numbers, const ScanLoopSearch& search,
-                              const Progress& progress);
+/// What the scans of these robots say among the keyframes known of them, with the loops of each.
+MeasuredScans measured_so_far(std::map<std::string, ScansSoFar>& scans, const std::vector<Robot>& robots,
+                              const std::map<std::string, LoggedKeyframes>& keyframes,
+                              const ScanLoopSearch& search, const Progress& progress);
 
 }  // namespace radioslam

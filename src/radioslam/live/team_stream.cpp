@@ -4,13 +4,12 @@
 #include <chrono>
 #include <map>
 #include <memory>
-#include <stdexcept>
+#include <string>
 #include <utility>
 #include <variant>
 
-#include "radioslam/live/link_evidence.hpp"
+#include "radioslam/live/growing_estimate.hpp"
 #include "radioslam/live/scans_so_far.hpp"
-#include "radioslam/records/mission_of_logs.hpp"
 #include "radioslam/records/record_codec.hpp"
 
 namespace radioslam {
@@ -34,12 +33,6 @@ std::vector<Said> in_order(const std::vector<ReplayedRobot>& robots) {
   return all;
 }
 
-std::vector<std::string> ids_of(const Mission& mission) {
-  std::vector<std::string> ids;
-  for (const Robot& robot : mission.robots) ids.push_back(robot.id);
-  return ids;
-}
-
 template <class Pose>
 class TeamStream {
  public:
@@ -48,17 +41,17 @@ class TeamStream {
       : mission_(mission),
         robots_(robots),
         params_(params),
-        stream_(stream),
         error_of_(error_of),
         progress_(progress),
-        keyframes_(robots.size()),
-        frames_(ids_of(mission)) {
-    for (const ReplayedRobot& robot : robots) scans_.emplace_back(robot);
+        known_(stream) {
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+      scans_.emplace(mission.robots[r].id, ScansSoFar(robots[r]));
+      numbers_[mission.robots[r].id] = r;
+    }
   }
 
   StreamedTeam run() {
     const std::vector<Said> said = in_order(robots_);
-    if (!said.empty()) state_.begin = said.front().known;
     for (std::size_t k = 0; k < said.size(); ++k) {
       if (k > 0 && said[k].known != said[k - 1].known) consider(said[k - 1].known);
       hear(said[k]);
@@ -69,85 +62,51 @@ class TeamStream {
 
  private:
   void hear(const Said& said) {
-    const std::string& bytes = robots_[said.robot].log.records[said.number];
-    ++known_.records;
-    auto record = decode_record(bytes);
+    const std::string& id = mission_.robots[said.robot].id;
+    auto record = decode_record(robots_[said.robot].log.records[said.number]);
     if (!record) return;
-    std::visit([&](const auto& of) { count(said.robot, of); }, *record);
-    logs_.add(mission_.robots[said.robot].id, *std::move(record));
-  }
-
-  void count(std::size_t robot, const KeyframeRecord& keyframe) {
-    ++known_.keyframes;
-    LoggedKeyframes& known = keyframes_[robot];
-    known.add(keyframe);
+    const auto* keyframe = std::get_if<KeyframeRecord>(&*record);
+    const std::optional<std::uint32_t> number = keyframe ? std::optional(keyframe->number) : std::nullopt;
+    known_.hear(id, *std::move(record), said.known);
+    if (!number) return;
     std::optional<std::size_t> estimate;
     if (!streamed_.estimates.empty()) estimate = streamed_.estimates.size() - 1;
-    const PublishedFrame& frame = frames_.of(robot);
-    streamed_.keyframes.push_back({robot, keyframe.number, keyframe.stamp,
-                                   frame.T_frame_start * in_dimension<Pose>(known.said.back().pose),
-                                   frame.frame, estimate});
+    const PublishedFrame frame = frames_.of(id);
+    const StampedPose<SE3>& last = known_.keyframes().at(id).said.back();
+    streamed_.keyframes.push_back({said.robot, *number, last.stamp,
+                                   frame.T_frame_start * in_dimension<Pose>(last.pose),
+                                   numbers_.at(frame.frame), estimate});
   }
-  void count(std::size_t robot, const AmendmentRecord& amendment) { keyframes_[robot].add(amendment); }
-  void count(std::size_t, const RangeRecord&) { ++known_.links; }
-  void count(std::size_t, const AnglesRecord&) { ++known_.links; }
-  void count(std::size_t, const FingerprintRecord&) { ++known_.fingerprints; }
-  void count(std::size_t, const ClosureRecord&) { ++known_.closures; }
-  template <class Other>
-  void count(std::size_t, const Other&) {}
 
   /// Estimates the team if that is due.
   void consider(Stamp now) {
-    if (seconds_between(considered_, now) < 1 && state_.any) return;
-    considered_ = now;
-    if (!due_effort(state_, now, known_, stream_)) return;
     const auto begin = std::chrono::steady_clock::now();
-    LoggedMission logged;
-    try {
-      logged = logs_.mission();
-    } catch (const std::runtime_error&) {  // no robot has moved yet
-      return;
-    }
-    known_.unjoined_links = unjoined_links(logged.mission, solution_ ? &solution_->team : nullptr);
-    const auto effort = due_effort(state_, now, known_, stream_);
-    if (!effort) return;
-    const MeasuredScans scans = *effort == Effort::kExtend
-                                    ? MeasuredScans{}
-                                    : measured_so_far(scans_, keyframes_, in_mission(logged.mission.robots),
-                                                      loop_search(), progress_);
-    solution_ = estimate<Pose>({logged, scans}, solution_ ? &*solution_ : nullptr, *effort, params_,
-                               {.lists_overlaps = false});
+    const auto due = known_.due(now);
+    if (!due) return;
+    const MeasuredScans scans =
+        due->effort == Effort::kExtend
+            ? MeasuredScans{}
+            : measured_so_far(scans_, due->logged.mission.robots, known_.keyframes(),
+                              loop_search(params_.scans, params_.places.descriptors, mission_.dimension),
+                              progress_);
+    known_.take(*due, std::make_shared<const TeamSolution<Pose>>(
+                          estimate<Pose>({due->logged, scans}, known_.last().get(), due->effort, params_,
+                                         {.lists_overlaps = false})));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    state_.weight = solution_->weight_by_links;
-    state_.is_contradicted = fits_worse_of_late(solution_->team);
-    state_.note(solution_->effort, now, known_);
-    for (TeamEvent& event : frames_.move_to(solution_->team, now, keyframes_))
+    for (TeamEvent& event : frames_.move_to(known_.last()->team, now, known_.keyframes()))
       streamed_.events.push_back(std::move(event));
     describe(now, seconds);
   }
 
-  ScanLoopSearch loop_search() const {
-    return {params_.scans.loops,        params_.scans.lidar.map,
-            params_.scans.search,       params_.scans.lidar.registration,
-            params_.places.descriptors, mission_.dimension == 3 ? Storeys::kSeveral : Storeys::kOne};
-  }
-
-  /// The robot of the mission that each robot of the logs is.
-  std::vector<std::size_t> in_mission(const auto& robots) const {
-    std::vector<std::size_t> numbers;
-    for (const auto& robot : robots)
-      for (std::size_t r = 0; r < mission_.robots.size(); ++r)
-        if (mission_.robots[r].id == robot.id) numbers.push_back(r);
-    return numbers;
-  }
-
   void describe(Stamp now, double seconds) {
+    const TeamEstimate<Pose>& team = known_.last()->team;
     OnlineEstimate estimate{
-        now, solution_->effort, seconds, known_.keyframes, solution_->team.alignment.weight, {}, {}};
-    std::map<std::size_t, std::vector<std::size_t>> members;  // robots of the graph, by frame
-    for (std::size_t r = 0; r < robots_.size(); ++r) estimate.frame.push_back(frames_.of(r).frame);
-    const auto numbers = in_mission(solution_->team.joint.robots);
-    for (std::size_t r = 0; r < numbers.size(); ++r) members[estimate.frame[numbers[r]]].push_back(r);
+        now, known_.last()->effort, seconds, known_.known().keyframes, team.alignment.weight, {}, {}};
+    for (const Robot& robot : mission_.robots)
+      estimate.frame.push_back(numbers_.at(frames_.of(robot.id).frame));
+    std::map<std::string, std::vector<std::size_t>> members;  // robots of the graph, by frame
+    for (std::size_t r = 0; r < team.joint.robots.size(); ++r)
+      members[frames_.of(team.joint.robots[r].id).frame].push_back(r);
     if (error_of_ && (estimate.effort != Effort::kExtend || seconds_between(measured_, now) >= kMeasured_s)) {
       const auto largest = std::max_element(members.begin(), members.end(), [](const auto& a, const auto& b) {
         return a.second.size() < b.second.size();
@@ -159,7 +118,7 @@ class TeamStream {
   }
 
   std::optional<double> error_of(const std::vector<std::size_t>& robots) const {
-    const JointGraph<Pose>& joint = solution_->team.joint;
+    const JointGraph<Pose>& joint = known_.last()->team.joint;
     std::vector<EstimatedTrajectory> trajectories;
     for (const std::size_t r : robots) {
       const RobotVariables& robot = joint.robots[r];
@@ -174,17 +133,13 @@ class TeamStream {
   const Mission& mission_;
   const std::vector<ReplayedRobot>& robots_;
   const RunParams& params_;
-  const StreamParams& stream_;
   const ErrorOf& error_of_;
   const Progress& progress_;
-  GrowingLogs logs_;
-  KnownCounts known_;
-  EffortState state_;
-  Stamp considered_, measured_;
-  std::vector<LoggedKeyframes> keyframes_;
+  GrowingEstimate<Pose> known_;
+  Stamp measured_;
   PublishedFrames frames_;
-  std::vector<ScansSoFar> scans_;
-  std::optional<TeamSolution<Pose>> solution_;
+  std::map<std::string, ScansSoFar> scans_;
+  std::map<std::string, std::size_t> numbers_;  ///< of the mission's robots
   StreamedTeam streamed_;
 };
 

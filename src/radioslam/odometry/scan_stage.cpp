@@ -226,14 +226,19 @@ void append(MeasuredScans& to, MeasuredScans of_robot) {
 
 }  // namespace
 
+ScanLoopSearch loop_search(const ScanParams& params, const PlaceDescriptorParams& descriptors,
+                           int dimension) {
+  return {params.loops,  params.lidar.map,
+          params.search, params.lidar.registration,
+          descriptors,   dimension == 3 ? Storeys::kSeveral : Storeys::kOne};
+}
+
 MeasuredScans measure_scans(const Mission& mission, const ScanParams& params, const KeyframeParams& keyframes,
                             const Progress& progress, ScansOfRecorded recorded,
                             const PlaceDescriptorParams& descriptors,
                             std::vector<std::optional<TrackedScans>> tracked) {
   tracked.resize(mission.robots.size());
-  const ScanLoopSearch loops{params.loops,  params.lidar.map,
-                             params.search, params.lidar.registration,
-                             descriptors,   mission.dimension == 3 ? Storeys::kSeveral : Storeys::kOne};
+  const ScanLoopSearch loops = loop_search(params, descriptors, mission.dimension);
   CloudStore clouds(params.clouds);
   std::mutex reporting;
   const Progress report = [&](std::string_view stage, double fraction) {

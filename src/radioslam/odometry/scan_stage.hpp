@@ -48,6 +48,9 @@ struct MeasuredScans {
   std::size_t too_few = 0, lost = 0;  ///< skipped: too few points; no match with the map
 };
 
+/// How a robot's loops are searched in a mission of so many dimensions.
+ScanLoopSearch loop_search(const ScanParams& params, const PlaceDescriptorParams& descriptors, int dimension);
+
 /// Whether a robot whose odometry is used as recorded gets keyframes with scans, too.
 enum class ScansOfRecorded { kIgnored, kForPlaces };
 
