@@ -26,6 +26,7 @@ radioslam_room(io
     graph/team_assembly.cpp
     graph/team_graph_file.cpp
     graph/team_ids.cpp
+    journal/journal.cpp
     lidar/bin_layout.cpp
     lidar/carmen.cpp
     lidar/kitti_sequence.cpp
@@ -67,6 +68,7 @@ radioslam_room(io
     run/metrics_json.cpp
     run/run_folder.cpp
     run/run_tables.cpp
+    sqlite/sqlite.cpp
     text/atomic_output.cpp
     text/compressed_text.cpp
     text/csv.cpp
