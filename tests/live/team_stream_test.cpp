@@ -74,6 +74,26 @@ TEST(TeamStream, SaysWhereAFrameStandsOnClosuresAlone) {
   EXPECT_EQ(std::count_if(without.begin(), without.end(), is_by_closures), joins);
 }
 
+TEST(TeamStream, ClosuresAloneDoNotJoinFramesWhereThereIsRadio) {
+  CityParams seen = town();
+  seen.matches.matches_true = 60;
+  Simulation simulated = simulate_city(seen, 3);
+  auto& ranges = simulated.mission.ranges;
+  auto& angles = simulated.mission.aoa_measurements;
+  // Links between robots b and c alone are left.
+  std::erase_if(ranges, [](const auto& of) { return std::min(of.i.robot.index(), of.j.robot.index()) == 0; });
+  std::erase_if(angles,
+                [](const auto& of) { return of.receiver.index() == 0 || of.transmitter.robot.index() == 0; });
+  ASSERT_FALSE(ranges.empty());
+  const auto team = stream(simulated);
+  const std::vector<std::size_t>& frame = team.estimates.back().frame;
+  EXPECT_NE(frame[1], 0u);
+  EXPECT_NE(frame[2], 0u);
+  EXPECT_TRUE(std::any_of(team.events.begin(), team.events.end(), [](const auto& event) {
+    return event.what.find("until radio links agree") != std::string::npos;
+  }));
+}
+
 TEST(TeamStream, EveryKeyframeOfTheLogsIsSaidOnceInTimeOrder) {
   const auto& [simulated, team] = streamed_town();
   std::vector<std::uint32_t> next(simulated.mission.robots.size(), 0);

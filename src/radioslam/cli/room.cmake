@@ -22,6 +22,7 @@ add_library(radioslam_cli STATIC
   cli/commands/command_run.cpp
   cli/commands/command_similarity.cpp
   cli/commands/command_simulate.cpp
+  cli/commands/command_team.cpp
   cli/commands/csi_channels.cpp
   cli/commands/distributed_optimization.cpp
   cli/commands/evaluated_estimate.cpp
@@ -30,6 +31,7 @@ add_library(radioslam_cli STATIC
   cli/commands/mission_check.cpp
   cli/commands/mission_input.cpp
   cli/commands/output_path_check.cpp
+  cli/commands/run_documents.cpp
   cli/recorded_drive.cpp
   cli/config.cpp
   cli/online_output.cpp
@@ -53,7 +55,7 @@ add_library(radioslam::cli ALIAS radioslam_cli)
 target_include_directories(radioslam_cli PUBLIC ${cli_include})
 target_link_libraries(radioslam_cli
   PUBLIC radioslam_results radioslam_io CLI11::CLI11
-  PRIVATE radioslam_doctor radioslam_rendezvous_world radioslam_front_end radioslam_live radioslam_pipeline radioslam_eval radioslam_report yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
+  PRIVATE radioslam_doctor radioslam_rendezvous_world radioslam_front_end radioslam_live radioslam_team radioslam_pipeline radioslam_eval radioslam_report yaml-cpp nlohmann_json::nlohmann_json radioslam_warnings)
 target_compile_definitions(radioslam_cli PRIVATE RADIOSLAM_VERSION="${PROJECT_VERSION}")
 radioslam_group_sources(radioslam_cli)
 radioslam_precompile(radioslam_cli ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)

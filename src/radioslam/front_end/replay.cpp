@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -55,6 +56,9 @@ std::vector<Stream> streams_of(const Mission& mission, RobotIndex self) {
                     [&](const auto& match) { return match.robot_i == self || match.robot_j == self; })};
 }
 
+constexpr ReplayWindow kWhole{
+    {std::numeric_limits<std::int64_t>::min()}, {std::numeric_limits<std::int64_t>::max()}, true};
+
 using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point begin) {
@@ -70,8 +74,11 @@ void number_keyframes(const FrontEnd& front_end, std::vector<ReplayedPose>& pose
       pose.keyframe = found->second;
 }
 
-ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanParams& scans,
-                           const KeyframeParams& keyframes, CloudStore& clouds, const Progress& progress) {
+}  // namespace
+
+ReplayedRobot replay(const Mission& mission, RobotIndex self, const ReplayWindow& window,
+                     const ScanParams& scans, const KeyframeParams& keyframes, CloudStore& clouds,
+                     const Progress& progress) {
   const Robot& robot = mission.robots[self.index()];
   FrontEnd front_end(mission, self, {!robot.odometry.empty(), !robot.inertial.empty(), !robot.lidar.empty()},
                      scans, keyframes, clouds);
@@ -96,19 +103,23 @@ ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanPa
       if (next[s] < streams[s].stamps.size() &&
           (first == streams.size() || streams[s].stamps[next[s]] < streams[first].stamps[next[first]]))
         first = s;
-    Sample sample = streams[first].sample(next[first]++);
-    now = stamp_of(sample);
+    const Stamp stamp = streams[first].stamps[next[first]];
+    const std::size_t number = next[first]++;
+    if (stamp < window.begin || window.end < stamp) continue;
+    Sample sample = streams[first].sample(number);
+    now = stamp;
     const auto begin = Clock::now();
     front_end.add(std::move(sample));
     take(begin);
     report_progress(progress, "replay " + robot.id, static_cast<double>(done) / static_cast<double>(total));
   }
   const auto begin = Clock::now();
+  if (!window.is_finished) now = window.end;
   replayed.tracked = front_end.finish();
   replayed.follows_scans = replayed.tracked.has_value();
-  take(begin);
+  if (window.is_finished) take(begin);
   number_keyframes(front_end, replayed.poses);
-  if (replayed.tracked && !replayed.tracked->track.poses.empty()) {
+  if (window.is_finished && replayed.tracked && !replayed.tracked->track.poses.empty()) {
     ScanTrajectory track;
     track.poses = replayed.tracked->track.poses;
     track.is_level = replayed.tracked->track.is_level;
@@ -119,8 +130,6 @@ ReplayedRobot replay_robot(const Mission& mission, RobotIndex self, const ScanPa
   replayed.left_out = front_end.left_out();
   return replayed;
 }
-
-}  // namespace
 
 std::vector<ReplayedRobot> replay(const Mission& mission, const ScanParams& scans,
                                   const KeyframeParams& keyframes, const Progress& progress) {
@@ -133,7 +142,7 @@ std::vector<ReplayedRobot> replay(const Mission& mission, const ScanParams& scan
   std::vector<ReplayedRobot> robots(mission.robots.size());
   parallel_for(robots.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)
-      robots[r] = replay_robot(mission, RobotIndex(r), scans, keyframes, clouds, report);
+      robots[r] = replay(mission, RobotIndex(r), kWhole, scans, keyframes, clouds, report);
   });
   return robots;
 }

@@ -7,6 +7,7 @@
 
 #include "radioslam/base/progress.hpp"
 #include "radioslam/front_end/front_end.hpp"
+#include "radioslam/lidar/clouds/cloud_store.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_stage.hpp"
 #include "radioslam/records/team_log.hpp"
@@ -30,6 +31,17 @@ struct ReplayedRobot {
   bool follows_scans = false;  ///< its poses are those of scans
   std::size_t left_out = 0;
 };
+
+/// When a robot's program ran.
+struct ReplayWindow {
+  Stamp begin, end;          ///< samples outside are not taken
+  bool is_finished = false;  ///< it ended of itself: with all that hindsight makes of it
+};
+
+/// One robot.
+ReplayedRobot replay(const Mission& mission, RobotIndex self, const ReplayWindow& window,
+                     const ScanParams& scans, const KeyframeParams& keyframes, CloudStore& clouds,
+                     const Progress& progress = {});
 
 /// The robots of the mission, in parallel. Poses, events and logs do not depend on the number of threads.
 std::vector<ReplayedRobot> replay(const Mission& mission, const ScanParams& scans,

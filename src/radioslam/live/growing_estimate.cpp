@@ -32,34 +32,49 @@ void GrowingEstimate<Pose>::count(LoggedKeyframes& robot, const Record& record) 
 }
 
 template <class Pose>
-std::optional<DueEstimate> GrowingEstimate<Pose>::due(Stamp now) {
+std::optional<EstimateRequest<Pose>> GrowingEstimate<Pose>::request(Stamp now) {
   if (seconds_between(considered_, now) < 1 && state_.any) return std::nullopt;
   considered_ = now;
   if (!due_effort(state_, now, known_, stream_)) return std::nullopt;
-  DueEstimate due;
-  try {
-    due.logged = logs_.mission();
-  } catch (const std::runtime_error&) {  // no robot has moved yet
-    return std::nullopt;
-  }
-  known_.unjoined_links = unjoined_links(due.logged.mission, last_ ? &last_->team : nullptr);
-  const auto effort = due_effort(state_, now, known_, stream_);
-  if (!effort) return std::nullopt;
-  due.effort = *effort;
-  due.at = now;
-  due.known = known_;
-  return due;
+  return EstimateRequest<Pose>{logs_, known_, state_, stream_, last_, now};
 }
 
 template <class Pose>
-void GrowingEstimate<Pose>::take(const DueEstimate& due, Solution solution) {
-  last_ = std::move(solution);
+void GrowingEstimate<Pose>::take(GrownEstimate<Pose> estimate) {
+  known_.unjoined_links = estimate.known.unjoined_links;
+  if (!estimate.solution) return;
+  last_ = std::move(estimate.solution);
   state_.weight = last_->weight_by_links;
   state_.is_contradicted = fits_worse_of_late(last_->team);
-  state_.note(last_->effort, due.at, due.known);
+  state_.note(last_->effort, estimate.at, estimate.known);
 }
 
-template class GrowingEstimate<SE2>;
-template class GrowingEstimate<SE3>;
+template <class Pose>
+GrownEstimate<Pose> estimate(const EstimateRequest<Pose>& request, const RunParams& params,
+                             const std::function<MeasuredScans(const LoggedMission&)>& scans_of) {
+  GrownEstimate<Pose> grown{request.known, request.at, nullptr};
+  LoggedMission logged;
+  try {
+    logged = request.logs.mission();
+  } catch (const std::runtime_error&) {  // no robot has moved yet
+    return grown;
+  }
+  const TeamSolution<Pose>* last = request.last.get();
+  grown.known.unjoined_links = unjoined_links(logged.mission, last ? &last->team : nullptr);
+  const auto effort = due_effort(request.state, request.at, grown.known, request.stream);
+  if (!effort) return grown;
+  const MeasuredScans scans = scans_of && *effort != Effort::kExtend ? scans_of(logged) : MeasuredScans{};
+  grown.solution = std::make_shared<const TeamSolution<Pose>>(
+      estimate<Pose>(TeamView{logged, scans}, last, *effort, params, {.lists_overlaps = false}));
+  return grown;
+}
+
+#define RADIOSLAM_GROWING(Pose)                                                         \
+  template class GrowingEstimate<Pose>;                                                 \
+  template GrownEstimate<Pose> estimate(const EstimateRequest<Pose>&, const RunParams&, \
+                                        const std::function<MeasuredScans(const LoggedMission&)>&);
+RADIOSLAM_GROWING(SE2)
+RADIOSLAM_GROWING(SE3)
+#undef RADIOSLAM_GROWING
 
 }  // namespace radioslam

@@ -1,6 +1,7 @@
 // What is known of a team's logs as they grow, and the last estimate made of it (stream_effort.hpp).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,13 +15,29 @@
 
 namespace radioslam {
 
-/// An estimate that is due.
-struct DueEstimate {
-  LoggedMission logged;
-  Effort effort = Effort::kAlign;
-  Stamp at;
+/// What is known of a team at a time, when an estimate may be due.
+template <class Pose>
+struct EstimateRequest {
+  GrowingLogs logs;
   KnownCounts known;
+  EffortState state;
+  StreamParams stream;
+  std::shared_ptr<const TeamSolution<Pose>> last;  ///< null before the first
+  Stamp at;
 };
+
+/// What became of a request.
+template <class Pose>
+struct GrownEstimate {
+  KnownCounts known;
+  Stamp at;
+  std::shared_ptr<const TeamSolution<Pose>> solution;  ///< null where none was due
+};
+
+/// Estimates the team, if that is due. `scans_of`: what scans say, asked only where closures are judged.
+template <class Pose>
+GrownEstimate<Pose> estimate(const EstimateRequest<Pose>& request, const RunParams& params,
+                             const std::function<MeasuredScans(const LoggedMission&)>& scans_of = {});
 
 template <class Pose>
 class GrowingEstimate {
@@ -35,10 +52,9 @@ class GrowingEstimate {
   /// By the robots' names, as their logs say them.
   const std::map<std::string, LoggedKeyframes>& keyframes() const { return keyframes_; }
 
-  /// The estimate that is due, at most one a second.
-  std::optional<DueEstimate> due(Stamp now);
-  /// What was estimated.
-  void take(const DueEstimate& due, Solution solution);
+  /// What to estimate from where an estimate may be due, at most one a second.
+  std::optional<EstimateRequest<Pose>> request(Stamp now);
+  void take(GrownEstimate<Pose> estimate);
   /// The last estimate; null before the first.
   const Solution& last() const { return last_; }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/eval/metrics.hpp"
 #include "radioslam/joint/team_estimate.hpp"
 #include "radioslam/live/scans_so_far.hpp"
 
@@ -25,7 +26,7 @@ struct TeamEvent {
 struct PublishedFrame {
   std::string frame;  ///< its first robot
   SE3 T_frame_start;
-  bool is_by_closures_alone = false;  ///< no link or fix relates the robot to the first one
+  std::string by_closures = {};  ///< the frame into which closures alone put the robot; empty: they do not
 };
 
 /// A pose as an estimate in this dimension has it: in the plane, at height 0.
@@ -50,5 +51,9 @@ class PublishedFrames {
 
   std::map<std::string, PublishedFrame> frames_;
 };
+
+/// The robots of the frame with the most, as the estimate places them.
+template <class Pose>
+std::vector<EstimatedTrajectory> largest_frame(const TeamEstimate<Pose>& team, const PublishedFrames& frames);
 
 }  // namespace radioslam

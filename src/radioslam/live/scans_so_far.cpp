@@ -4,9 +4,18 @@
 #include <utility>
 
 namespace radioslam {
+namespace {
+
+constexpr double kUnknownVariance = 1e4;
+
+}  // namespace
 
 void LoggedKeyframes::add(const KeyframeRecord& keyframe) {
   const SE3 before = said.empty() ? SE3() : said.back().pose;
+  while (!said.empty() && said.size() < keyframe.number) {  // missing: the motion is not known
+    said.push_back(said.back());
+    steps.push_back({SE3(), kUnknownVariance * SE3::Jacobian::Identity()});
+  }
   said.push_back({keyframe.stamp, before * keyframe.T_before_this});
   steps.push_back({keyframe.T_before_this, keyframe.covariance.value_or(SE3::Jacobian::Zero())});
 }

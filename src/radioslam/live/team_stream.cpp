@@ -81,17 +81,16 @@ class TeamStream {
   /// Estimates the team if that is due.
   void consider(Stamp now) {
     const auto begin = std::chrono::steady_clock::now();
-    const auto due = known_.due(now);
-    if (!due) return;
-    const MeasuredScans scans =
-        due->effort == Effort::kExtend
-            ? MeasuredScans{}
-            : measured_so_far(scans_, due->logged.mission.robots, known_.keyframes(),
-                              loop_search(params_.scans, params_.places.descriptors, mission_.dimension),
-                              progress_);
-    known_.take(*due, std::make_shared<const TeamSolution<Pose>>(
-                          estimate<Pose>({due->logged, scans}, known_.last().get(), due->effort, params_,
-                                         {.lists_overlaps = false})));
+    const auto request = known_.request(now);
+    if (!request) return;
+    auto grown = estimate<Pose>(*request, params_, [&](const LoggedMission& logged) {
+      return measured_so_far(scans_, logged.mission.robots, known_.keyframes(),
+                             loop_search(params_.scans, params_.places.descriptors, mission_.dimension),
+                             progress_);
+    });
+    const bool is_made = grown.solution != nullptr;
+    known_.take(std::move(grown));
+    if (!is_made) return;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (TeamEvent& event : frames_.move_to(known_.last()->team, now, known_.keyframes()))
       streamed_.events.push_back(std::move(event));
@@ -104,30 +103,11 @@ class TeamStream {
         now, known_.last()->effort, seconds, known_.known().keyframes, team.alignment.weight, {}, {}};
     for (const Robot& robot : mission_.robots)
       estimate.frame.push_back(numbers_.at(frames_.of(robot.id).frame));
-    std::map<std::string, std::vector<std::size_t>> members;  // robots of the graph, by frame
-    for (std::size_t r = 0; r < team.joint.robots.size(); ++r)
-      members[frames_.of(team.joint.robots[r].id).frame].push_back(r);
     if (error_of_ && (estimate.effort != Effort::kExtend || seconds_between(measured_, now) >= kMeasured_s)) {
-      const auto largest = std::max_element(members.begin(), members.end(), [](const auto& a, const auto& b) {
-        return a.second.size() < b.second.size();
-      });
-      estimate.error_m = error_of(largest->second);
+      estimate.error_m = error_of_(largest_frame(team, frames_));
       measured_ = now;
     }
     streamed_.estimates.push_back(std::move(estimate));
-  }
-
-  std::optional<double> error_of(const std::vector<std::size_t>& robots) const {
-    const JointGraph<Pose>& joint = known_.last()->team.joint;
-    std::vector<EstimatedTrajectory> trajectories;
-    for (const std::size_t r : robots) {
-      const RobotVariables& robot = joint.robots[r];
-      std::vector<StampedPose<SE3>> poses;
-      for (std::size_t k = 0; k < robot.poses.size(); ++k)
-        poses.push_back({robot.stamps[k], as_se3(joint.team.graph.poses[robot.poses[k].index()], 0)});
-      trajectories.push_back({robot.id, Trajectory<SE3>(std::move(poses))});
-    }
-    return error_of_(trajectories);
   }
 
   const Mission& mission_;

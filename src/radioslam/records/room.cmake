@@ -4,5 +4,6 @@ radioslam_room(records
     logs_of_mission.cpp
     mission_of_logs.cpp
     record_codec.cpp
+    resumed_log.cpp
     team_log.cpp
   ROOMS mission)

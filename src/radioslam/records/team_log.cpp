@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "radioslam/base/wire.hpp"
+#include "radioslam/records/log_chunks.hpp"
 #include "radioslam/records/record_codec.hpp"
 
 namespace radioslam {
@@ -33,19 +34,11 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
   return ~crc;
 }
 
-struct Chunk {
-  std::string robot;
-  std::uint32_t life = 0;
-  std::uint64_t first = 0;
-  std::vector<std::string_view> records;
-  std::size_t bytes = 0;  ///< of the whole chunk
-};
-
 /// The chunk at the beginning of the bytes; nothing if there is none.
-std::optional<Chunk> read_chunk(std::string_view bytes) {
+std::optional<LogChunk> read_chunk(std::string_view bytes) {
   WireReader in(bytes);
   if (in.take(kMagic.size()) != kMagic) return std::nullopt;
-  Chunk chunk;
+  LogChunk chunk;
   const std::string_view name = in.take(in.count(1));
   if (!is_record_name(name)) return std::nullopt;
   chunk.robot = std::string(name);
@@ -62,12 +55,12 @@ std::optional<Chunk> read_chunk(std::string_view bytes) {
   const std::uint32_t stated = in.u32();
   if (!in.good() || covered > kMaxChunkBytes || crc32(bytes.substr(0, covered)) != stated)
     return std::nullopt;
-  chunk.bytes = covered + 4;
+  chunk.bytes = bytes.substr(0, covered + 4);
   return chunk;
 }
 
 /// Why a chunk cannot be taken; empty if it can.
-std::string contradiction(const Chunk& chunk, const KnownLog* known) {
+std::string contradiction(const LogChunk& chunk, const KnownLog* known) {
   const std::string name = "robot " + chunk.robot + ": ";
   if (known && known->life != chunk.life)
     return name + "these records are of another recording than those before";
@@ -112,6 +105,15 @@ std::string next_chunk(const std::pair<std::string_view, std::uint32_t>& robot_l
 }
 
 }  // namespace
+
+std::vector<LogChunk> chunks_of(std::string_view bytes) {
+  std::vector<LogChunk> chunks;
+  while (auto chunk = read_chunk(bytes.substr(0, kMaxChunkBytes + 4))) {
+    bytes.remove_prefix(chunk->bytes.size());
+    chunks.push_back(*std::move(chunk));
+  }
+  return chunks;
+}
 
 std::uint32_t RobotLog::life() const {
   std::uint32_t life = crc32(robot);
@@ -171,7 +173,7 @@ Acceptance TeamLog::accept(std::string_view bytes) {
       bytes.remove_prefix(skipped);
       continue;
     }
-    bytes.remove_prefix(chunk->bytes);
+    bytes.remove_prefix(chunk->bytes.size());
     const auto known = robots_.find(chunk->robot);
     const std::string why = contradiction(*chunk, known == robots_.end() ? nullptr : &known->second);
     if (!why.empty()) {

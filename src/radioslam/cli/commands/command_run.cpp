@@ -20,6 +20,7 @@
 #include "radioslam/cli/commands/mission_check.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/commands/run_documents.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/online_output.hpp"
 #include "radioslam/cli/progress_line.hpp"
@@ -50,46 +51,6 @@ struct RunArguments {
   bool json = false;
 };
 
-/// Agreement of a run with the truth; empty without one.
-struct Agreement {
-  std::optional<TeamMetrics> metrics;
-  ClosuresByKind closures;
-};
-
-Agreement evaluate(const RunResult& result, const MissionInput& given) {
-  if (given.truth.empty()) return {};
-  return {evaluate_trajectories(team_estimate(result), given.truth, result.dimension),
-          compare_closures_with_truth(result, given.mission, given.truth, given.loops)};
-}
-
-/// `given`: the input without its recordings and its graph.
-RunDocuments documents_of(const RunOutput& run, const MissionInput& given, const Agreement& agreement,
-                          const StreamResult* stream) {
-  RunDocuments documents;
-  if (agreement.metrics) {
-    documents.metrics = metrics_json(*agreement.metrics);
-    documents.metrics["closures"] = closures_by_kind_json(agreement.closures);
-  }
-  documents.graph_g2o = std::visit(
-      [&](const auto& graph) { return format_g2o(with_ids(graph, given.pose_ids, given.point_ids)); },
-      run.graph);
-  documents.report_html = render_report(run.result, given.truth.empty() ? nullptr : &given.truth,
-                                        agreement.metrics, agreement.closures, {}, stream);
-  return documents;
-}
-
-/// ", position error 2.1 m rmse", with the coverage of the true poses unless it is complete.
-std::string error_text(const TeamMetrics& metrics) {
-  if (!metrics.ate) return {};
-  std::ostringstream text;
-  text << ", position error " << metrics.ate->rmse_m << " m rmse";
-  // Rounded down, so that an incomplete coverage never reads 100 %.
-  if (metrics.coverage < 1)
-    text << std::fixed << std::setprecision(1) << " over " << std::floor(1000 * metrics.coverage) / 10
-         << " % of the true poses";
-  return text.str();
-}
-
 void append(std::vector<std::string>& notes, std::vector<std::string> more) {
   for (auto& note : more) notes.push_back(std::move(note));
 }
@@ -101,17 +62,6 @@ void print_run(const RunResult& result, const std::optional<TeamMetrics>& metric
             << (result.components.size() == 1 ? " frame" : " separate frames");
   if (metrics) std::cout << error_text(*metrics);
   std::cout << '\n';
-}
-
-/// What of an input its run is evaluated and written by. Takes the truth from it: no estimator sees it.
-MissionInput for_evaluation(MissionInput& input) {
-  MissionInput given;
-  given.mission = without_recordings(input.mission);
-  given.truth = std::exchange(input.truth, {});
-  given.loops = std::exchange(input.loops, {});
-  given.pose_ids = std::move(input.pose_ids);
-  given.point_ids = std::move(input.point_ids);
-  return given;
 }
 
 /// Streams the recordings, if asked to; else nothing.

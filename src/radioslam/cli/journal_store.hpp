@@ -1,0 +1,24 @@
+// What outlives an agent, in a journal on the disk.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "radioslam/io/journal/journal.hpp"
+#include "radioslam/team/virtual_team.hpp"
+
+namespace radioslam::cli {
+
+class JournalStore : public AgentStore {
+ public:
+  JournalStore(const std::filesystem::path& file, const std::string& robot, std::uint32_t life_if_new)
+      : journal_(file, robot, life_if_new) {}
+
+  AgentMemory memory() const override { return {journal_.life(), journal_.logs()}; }
+  void commit(const JournalChange& change) override { journal_.commit(change); }
+
+ private:
+  Journal journal_;
+};
+
+}  // namespace radioslam::cli

@@ -1,0 +1,206 @@
+#include "radioslam/team/agent.hpp"
+
+#include <algorithm>
+
+namespace radioslam {
+namespace {
+
+constexpr std::size_t kMostRecordBytes = 8000;  // of a message
+constexpr double kDigest_s = 1, kOwn_s = 1, kAsk_s = 0.5;
+constexpr double kDigestPeers = 5;  // more of them are told less often
+
+}  // namespace
+
+Agent::Agent(std::string name, int dimension, const RunParams& run, const AgentParams& params,
+             const AgentMemory& memory)
+    : name_(std::move(name)),
+      dimension_(dimension),
+      run_(run),
+      params_(params),
+      logs_(name_, memory.life, memory.logs) {
+  restart_estimate();
+}
+
+void Agent::say(std::string record) { logs_.say(std::move(record)); }
+
+void Agent::note_kept() {
+  logs_.note_kept();
+  has_news_ = true;
+}
+
+void Agent::hear(const std::string& peer, std::string_view bytes, Stamp now) {
+  if (peer == name_) return;
+  if (!peers_.contains(peer) && peers_.size() >= kMaxTeam) return;
+  Peer& of = peers_.try_emplace(peer, Peer{.budget = ByteBudget(params_.bytes_s)}).first->second;
+  auto decoded = decode_message(bytes);
+  if (const auto* why = std::get_if<std::string>(&decoded)) return refuse(peer, *why, 1, now);
+  auto& received = std::get<ReceivedMessage>(decoded);
+  if (received.sender != peer) return refuse(peer, "messages in another robot's name", 1, now);
+  if (!of.is_heard(now)) {
+    events_.push_back({now, "hears robot " + peer + (of.heard ? " again" : "")});
+    of.sent_own = 0;  // until it says what it has
+  }
+  of.heard = now;
+  std::visit([&](const auto& message) { take(peer, message, now); }, received.message);
+}
+
+void Agent::refuse(const std::string& peer, const std::string& what, std::size_t times, Stamp now) {
+  std::size_t& count = peers_.at(peer).refused[what];
+  if (count == 0) events_.push_back({now, "refuses from robot " + peer + " " + what});
+  count += times;
+}
+
+void Agent::take(const std::string& peer, const Digest& digest, Stamp) {
+  Peer& of = peers_.at(peer);
+  of.knows = digest.knows;
+  of.solves = digest.solves;
+  const auto own = digest.knows.find(name_);
+  const LogExtent& extent = logs_.extents().at(name_);
+  const std::uint64_t has = own != digest.knows.end() && own->second.life == extent.life
+                                ? std::min(own->second.records, extent.records)
+                                : 0;
+  of.sent_own = std::max(of.sent_own, has);
+}
+
+void Agent::take(const std::string& peer, const RecordsMessage& records, Stamp now) {
+  for (const auto& [what, times] : logs_.accept(peer, records.chunks)) refuse(peer, what, times, now);
+  has_news_ = true;
+}
+
+void Agent::take(const std::string& peer, const Want& want, Stamp now) {
+  for (const WantedStretch& stretch : want.stretches) {
+    const auto extent = logs_.extents().find(stretch.robot);
+    if (extent == logs_.extents().end() || extent->second.life != stretch.life ||
+        extent->second.records <= stretch.first) {
+      refuse(peer, "wishes for records that it does not have", 1, now);
+      continue;
+    }
+    WantedStretch owed = stretch;
+    owed.end = std::min(owed.end, extent->second.records);
+    peers_.at(peer).wanted[stretch.robot] = owed;
+  }
+}
+
+void Agent::take(const std::string&, const CloudWant&, Stamp) {}
+void Agent::take(const std::string&, const CloudMessage&, Stamp) {}
+
+void Agent::take(const std::string&, const SolutionMessage& solution, Stamp) {
+  if (params_.solves || (taken_ && taken_->records > solution.records)) return;
+  taken_ = solution;
+}
+
+void Agent::done(const AnyGrownEstimate& result, Stamp now) {
+  for (TeamEvent& event : estimate_->take(result, now)) events_.push_back(std::move(event));
+  has_solution_ = true;
+}
+
+PublishedFrame Agent::frame_of(const std::string& robot) const {
+  if (!params_.solves && taken_)
+    if (const auto frame = taken_->frames.find(robot); frame != taken_->frames.end()) return frame->second;
+  return estimate_->frames().of(robot);
+}
+
+AgentStep Agent::step(Stamp now) {
+  AgentStep step;
+  tell_estimate();
+  send_digest(now, step);
+  if (!asked_ || seconds_between(*asked_, now) >= kAsk_s) {
+    asked_ = now;
+    for (auto& [peer, want] : asking_.wants(now, name_, logs_.extents(), peers_,
+                                            [&](const auto& robot) { return logs_.known_beyond(robot); }))
+      wants_[peer] = std::move(want);
+  }
+  const bool pushes = !own_sent_ || seconds_between(*own_sent_, now) >= kOwn_s;
+  for (auto& [name, peer] : peers_) {
+    peer.budget.refill(now);
+    if (peer.is_heard(now)) send_to(name, peer, pushes, step);
+  }
+  if (pushes) own_sent_ = now;
+  if (std::exchange(has_solution_, false)) send_solution(now, step);
+  if (params_.solves) step.job = estimate_->job(now);
+  step.events = std::exchange(events_, {});
+  return step;
+}
+
+void Agent::tell_estimate() {
+  if (!std::exchange(has_news_, false)) return;
+  for (const std::string& robot : logs_.take_replaced()) {
+    if (!estimated_.contains(robot)) continue;
+    restart_estimate();
+    break;
+  }
+  for (const auto& [robot, extent] : logs_.extents()) {
+    std::uint64_t& told = estimated_[robot];
+    const auto& records = logs_.log(robot).records;
+    for (auto next = records.lower_bound(told); told < extent.records; ++next, ++told)
+      estimate_->hear(robot, next->second);
+  }
+}
+
+void Agent::restart_estimate() {
+  estimate_ = agent_estimate(dimension_, run_, params_.stream);
+  estimated_.clear();
+}
+
+void Agent::send_digest(Stamp now, AgentStep& step) {
+  const auto heard = static_cast<double>(std::count_if(
+      peers_.begin(), peers_.end(), [now](const auto& peer) { return peer.second.is_heard(now); }));
+  if (digest_sent_ && seconds_between(*digest_sent_, now) < kDigest_s * std::max(1.0, heard / kDigestPeers))
+    return;
+  digest_sent_ = now;
+  Digest digest{logs_.extents(), params_.solves};
+  while (digest.knows.size() > kMaxTeam) digest.knows.erase(std::prev(digest.knows.end()));
+  step.messages.push_back({"", 0, encode(name_, digest)});
+  for (auto& [name, peer] : peers_) peer.budget.take(step.messages.back().bytes.size());
+}
+
+/// To those that make none, by the first of those that do.
+void Agent::send_solution(Stamp now, AgentStep& step) {
+  SolutionMessage solution{estimate_->records(), {}};
+  for (const auto& [robot, keyframes] : estimate_->keyframes()) {
+    if (solution.frames.size() == kMaxTeam) break;
+    solution.frames[robot] = estimate_->frames().of(robot);
+  }
+  for (const auto& [name, peer] : peers_)
+    if (peer.is_heard(now) && peer.solves && name < name_) return;
+  for (auto& [name, peer] : peers_)
+    if (peer.is_heard(now) && !peer.solves) send(name, peer, solution, step);
+}
+
+/// What the peer lacks, as far as its link's budget goes.
+void Agent::send_to(const std::string& name, Peer& peer, bool pushes, AgentStep& step) {
+  if (const auto want = wants_.find(name); want != wants_.end() && send(name, peer, want->second, step))
+    wants_.erase(want);
+  if (pushes && !send_records(name, peer, name_, peer.sent_own, logs_.extents().at(name_).records, step))
+    return;
+  for (auto wanted = peer.wanted.begin(); wanted != peer.wanted.end();) {
+    WantedStretch& stretch = wanted->second;
+    const auto extent = logs_.extents().find(stretch.robot);
+    const bool is_there = extent != logs_.extents().end() && extent->second.life == stretch.life;
+    if (is_there && !send_records(name, peer, stretch.robot, stretch.first, stretch.end, step)) return;
+    wanted = peer.wanted.erase(wanted);
+  }
+}
+
+bool Agent::send(const std::string& to, Peer& peer, const AgentMessage& message, AgentStep& step) {
+  std::string bytes = encode(name_, message);
+  if (!peer.budget.has(bytes.size())) return false;
+  peer.budget.take(bytes.size());
+  step.messages.push_back({to, message.index(), std::move(bytes)});
+  return true;
+}
+
+/// Moves `first` to the first record that was not sent. Whether all were.
+bool Agent::send_records(const std::string& to, Peer& peer, const std::string& robot, std::uint64_t& first,
+                         std::uint64_t end, AgentStep& step) {
+  while (first < end) {
+    const std::size_t most = peer.budget.at_most(kMostRecordBytes);
+    if (most == 0) return false;
+    auto [bytes, next] = logs_.log(robot).bytes(robot, first, end, most);
+    if (!send(to, peer, RecordsMessage{std::move(bytes)}, step)) return false;
+    first = next;
+  }
+  return true;
+}
+
+}  // namespace radioslam

@@ -1,0 +1,55 @@
+// An agent's estimate of its team: records in, jobs out, and where they place the robots.
+//
+// An estimate is of what was measured until kCut_s ago: by then it is known throughout a team in contact, so
+// that its robots estimate from the same records and come to the same result. Since then poses follow
+// odometry.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "radioslam/eval/metrics.hpp"
+#include "radioslam/live/growing_estimate.hpp"
+#include "radioslam/live/published_frames.hpp"
+#include "radioslam/pipeline/params.hpp"
+
+namespace radioslam {
+
+using AnyGrownEstimate = std::variant<GrownEstimate<SE2>, GrownEstimate<SE3>>;
+
+/// Work that depends on nothing but what the job holds: two jobs of the same key have the same result, on any
+/// machine. The parameters must outlive it.
+struct EstimateJob {
+  std::string key;
+  std::function<AnyGrownEstimate()> run;
+};
+
+class AgentEstimate {
+ public:
+  static constexpr double kCut_s = 3;
+
+  virtual ~AgentEstimate() = default;
+
+  /// The next record of a robot's log, encoded and valid.
+  virtual void hear(const std::string& robot, const std::string& record) = 0;
+  /// An estimate may be due. Nothing while one is made.
+  virtual std::optional<EstimateJob> job(Stamp now) = 0;
+  /// What a job gave. Returns what moved.
+  virtual std::vector<TeamEvent> take(const AnyGrownEstimate& result, Stamp now) = 0;
+
+  virtual const PublishedFrames& frames() const = 0;
+  /// As their logs say them, up to the last job.
+  virtual const std::map<std::string, LoggedKeyframes>& keyframes() const = 0;
+  /// The robots of the frame with the most, as the last estimate places them.
+  virtual std::vector<EstimatedTrajectory> largest_frame() const = 0;
+  virtual std::size_t records() const = 0;
+};
+
+std::unique_ptr<AgentEstimate> agent_estimate(int dimension, const RunParams& params,
+                                              const StreamParams& stream);
+
+}  // namespace radioslam

@@ -1,0 +1,133 @@
+#include "radioslam/team/known_logs.hpp"
+
+#include <algorithm>
+
+namespace radioslam {
+
+KnownLogs::KnownLogs(std::string self, std::uint32_t life,
+                     const std::vector<std::pair<std::string, KnownLog>>& kept)
+    : self_(std::move(self)) {
+  for (const auto& [robot, log] : kept) {
+    if (robot == self_) {
+      if (log.life == life) own_ = log;
+      continue;
+    }
+    if (const auto known = team_.robots().find(robot);
+        known != team_.robots().end() && known->second.life > log.life)
+      continue;
+    team_.forget(robot);
+    for (std::uint64_t next = 0; next < log.records.size();) {
+      auto [bytes, end] = log.bytes(robot, next, log.records.size(), kMaxAgentMessageBytes);
+      team_.accept(bytes);
+      next = end;
+    }
+    extend(robot);
+    kept_[robot] = extents_[robot].records;
+  }
+  own_.life = life;
+  extents_[self_] = {life, own_.records.size()};
+}
+
+void KnownLogs::say(std::string record) { own_.records.emplace(own_.records.size(), std::move(record)); }
+
+std::map<std::string, std::size_t> KnownLogs::accept(const std::string& sender, std::string_view chunks) {
+  Refusals refusals;
+  for (const LogChunk& chunk : chunks_of(chunks)) {
+    chunks.remove_prefix(chunk.bytes.size());
+    if (chunk.robot == self_)
+      check_own(chunk, refusals);
+    else
+      accept(sender, chunk, refusals);
+  }
+  if (!chunks.empty()) ++refusals["damaged records"];
+  return refusals;
+}
+
+/// Others cannot say what this robot said.
+void KnownLogs::check_own(const LogChunk& chunk, Refusals& refusals) const {
+  for (std::size_t k = 0; k < chunk.records.size(); ++k) {
+    const auto said = own_.records.find(chunk.first + k);
+    if (chunk.life == own_.life && (said == own_.records.end() || said->second != chunk.records[k]))
+      return void(++refusals["records in this robot's name that it did not say"]);
+  }
+}
+
+void KnownLogs::accept(const std::string& sender, const LogChunk& chunk, Refusals& refusals) {
+  const std::string& robot = chunk.robot;
+  const bool is_own = sender == robot;
+  if (!is_own && not_believed_[robot].contains(sender))
+    return void(++refusals["records of robot " + robot + ", which it denied"]);
+  const auto known = team_.robots().find(robot);
+  if (known == team_.robots().end() && team_.robots().size() >= kMaxTeam)
+    return void(++refusals["records of more robots than a team has"]);
+  if (known != team_.robots().end() && known->second.life != chunk.life) {
+    if (!is_own && (heard_.contains(robot) || chunk.life < known->second.life))
+      return void(++refusals["records of another life of robot " + robot]);
+    replace(robot);
+  }
+  Acceptance accepted = team_.accept(chunk.bytes);
+  if (!accepted.is_whole() && is_own && team_.robots().contains(robot) && !passed_on_[robot].empty()) {
+    replace(robot);
+    accepted = team_.accept(chunk.bytes);
+    if (accepted.is_whole()) not_believed_[robot].merge(passed_on_[robot]);
+  }
+  if (!accepted.is_whole()) ++refusals[accepted.refusals.front()];
+  if (is_own) heard_.insert(robot);
+  if (!is_own && accepted.records > 0) passed_on_[robot].insert(sender);
+  if (accepted.records > 0) extend(robot);
+}
+
+std::uint64_t KnownLogs::known_beyond(const std::string& robot) const {
+  const auto extent = extents_.find(robot);
+  if (extent == extents_.end()) return 0;
+  const auto& records = log(robot).records;
+  const auto next = records.lower_bound(extent->second.records);
+  return next == records.end() ? 0 : next->first;
+}
+
+JournalChange KnownLogs::change() const {
+  JournalChange change;
+  change.forgotten.assign(forgotten_.begin(), forgotten_.end());
+  const auto stretch = [](const KnownLog& log, std::uint64_t first, std::uint64_t end) {
+    std::vector<std::string> records;
+    for (auto next = log.records.lower_bound(first); next != log.records.end() && next->first < end; ++next)
+      records.push_back(next->second);
+    return records;
+  };
+  for (const auto& [robot, extent] : extents_) {
+    if (robot == self_) continue;
+    const auto kept = kept_.find(robot);
+    const std::uint64_t first = kept == kept_.end() ? 0 : kept->second;
+    if (first < extent.records)
+      change.kept.push_back({robot, extent.life, first, stretch(log(robot), first, extent.records)});
+  }
+  change.first_own = extents_.at(self_).records;
+  change.own = stretch(own_, change.first_own, own_.records.size());
+  return change;
+}
+
+void KnownLogs::note_kept() {
+  forgotten_.clear();
+  extents_[self_].records = own_.records.size();
+  for (const auto& [robot, extent] : extents_) kept_[robot] = extent.records;
+}
+
+/// As if nothing of the robot had been known.
+void KnownLogs::replace(const std::string& robot) {
+  team_.forget(robot);
+  extents_.erase(robot);
+  kept_.erase(robot);
+  forgotten_.insert(robot);
+  replaced_.insert(robot);
+}
+
+void KnownLogs::extend(const std::string& robot) {
+  const KnownLog& log = team_.robots().at(robot);
+  LogExtent& extent = extents_[robot];
+  extent.life = log.life;
+  for (auto next = log.records.find(extent.records);
+       next != log.records.end() && next->first == extent.records; ++next)
+    ++extent.records;
+}
+
+}  // namespace radioslam

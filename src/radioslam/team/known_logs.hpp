@@ -1,0 +1,65 @@
+// The logs that an agent knows: its own, and those of others as far as it was sent them.
+//
+// Anyone may pass on anyone's records. What a robot says of itself counts: where that contradicts what others
+// passed on, these are not believed about that robot any more. A robot's newer life replaces the older one
+// when it says so itself, or when nobody has heard it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "radioslam/records/journal_change.hpp"
+#include "radioslam/records/log_chunks.hpp"
+#include "radioslam/records/team_log.hpp"
+#include "radioslam/team/messages.hpp"
+
+namespace radioslam {
+
+class KnownLogs {
+ public:
+  /// `kept`: by robot and life, from the robot's journal.
+  KnownLogs(std::string self, std::uint32_t life, const std::vector<std::pair<std::string, KnownLog>>& kept);
+
+  /// The robot's own next record.
+  void say(std::string record);
+  /// Bytes that `sender` sent as records. Returns what was refused, in words, and how often.
+  std::map<std::string, std::size_t> accept(const std::string& sender, std::string_view chunks);
+
+  /// Without gaps; of the robot itself, what is kept.
+  const std::map<std::string, LogExtent>& extents() const { return extents_; }
+  const KnownLog& log(const std::string& robot) const {
+    return robot == self_ ? own_ : team_.robots().at(robot);
+  }
+  /// Number of the first record beyond the robot's extent that is known; 0 if there is none.
+  std::uint64_t known_beyond(const std::string& robot) const;
+
+  /// What the journal does not have yet; kept when it says so.
+  JournalChange change() const;
+  void note_kept();
+
+  /// Robots whose logs were replaced since the last call.
+  std::set<std::string> take_replaced() { return std::exchange(replaced_, {}); }
+
+ private:
+  using Refusals = std::map<std::string, std::size_t>;
+
+  void accept(const std::string& sender, const LogChunk& chunk, Refusals& refusals);
+  void check_own(const LogChunk& chunk, Refusals& refusals) const;
+  void replace(const std::string& robot);
+  void extend(const std::string& robot);
+
+  std::string self_;
+  KnownLog own_;
+  TeamLog team_;
+  std::map<std::string, LogExtent> extents_;  ///< of others: as known; of the robot itself: as kept
+  std::map<std::string, std::uint64_t> kept_;
+  std::set<std::string> forgotten_, replaced_, heard_;  ///< the last: robots that have spoken for themselves
+  std::map<std::string, std::set<std::string>> passed_on_, not_believed_;  ///< by robot: who
+};
+
+}  // namespace radioslam

@@ -1,0 +1,92 @@
+// What an agent knows of those it hears, and what it owes each of them.
+//
+// A link is to one peer and has a budget of bytes: what is over it waits, and is not lost, since what is sent
+// later is whatever the peer lacks then. In this order: digests, wants, own records, records of others that
+// it asked for, clouds. Nothing is pushed to a peer that was not heard for kSilent_s.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "radioslam/base/stamp.hpp"
+#include "radioslam/team/messages.hpp"
+
+namespace radioslam {
+
+inline constexpr double kSilent_s = 5;
+
+/// Bytes that a link may send, as they come: at most so many a second, and those of one second at once.
+class ByteBudget {
+ public:
+  /// 0: no bound.
+  explicit ByteBudget(double bytes_s = 0) : bytes_s_(bytes_s) {}
+
+  void refill(Stamp now);
+  bool has(std::size_t bytes) const { return bytes_s_ == 0 || left_ >= static_cast<double>(bytes); }
+  void take(std::size_t bytes) { left_ -= static_cast<double>(bytes); }
+  /// Of one message now, at most so many.
+  std::size_t at_most(std::size_t bytes) const;
+
+ private:
+  double bytes_s_, left_ = 0;
+  std::optional<Stamp> filled_;
+};
+
+struct Peer {
+  std::optional<Stamp> heard;
+  std::map<std::string, LogExtent> knows;       ///< as it last said
+  bool solves = true;                           ///< as it last said
+  std::uint64_t sent_own = 0;                   ///< own records up to this number are sent
+  std::map<std::string, WantedStretch> wanted;  ///< by it, by robot
+  std::set<Stamp> clouds;                       ///< wanted by it
+  ByteBudget budget;
+  std::map<std::string, std::size_t> refused;  ///< of what it sent, by reason
+
+  bool is_heard(Stamp now) const { return heard && seconds_between(*heard, now) <= kSilent_s; }
+};
+
+/// Which records the agent asks whom for. A stretch is asked for again after kRepeat_s without progress, of
+/// another peer that has it: of the robot itself first.
+class Asking {
+ public:
+  static constexpr double kRepeat_s = 2;
+
+  /// `extents`: what the agent has. `beyond`: the first record after them that it has, of a robot; 0: none.
+  template <class Beyond>
+  std::map<std::string, Want> wants(Stamp now, const std::string& self,
+                                    const std::map<std::string, LogExtent>& extents,
+                                    const std::map<std::string, Peer>& peers, const Beyond& beyond) {
+    std::map<std::string, Want> wants;
+    for (const auto& [robot, most] : known_by(peers, self, now)) {
+      const auto own = extents.find(robot);
+      const bool is_other_life = own == extents.end() || own->second.life != most.life;
+      if (!is_other_life && own->second.records >= most.records) continue;
+      if (is_other_life && own != extents.end() && own->second.life > most.life) continue;
+      const std::uint64_t has = is_other_life ? 0 : own->second.records;
+      const std::uint64_t next = is_other_life ? 0 : beyond(robot);
+      const WantedStretch stretch{robot, most.life, has, next > has ? next : most.records};
+      if (const auto peer = whom(stretch, now, peers)) wants[*peer].stretches.push_back(stretch);
+    }
+    return wants;
+  }
+
+ private:
+  struct Asked {
+    Stamp at;
+    WantedStretch stretch;
+    std::size_t tries = 0;
+  };
+
+  static std::map<std::string, LogExtent> known_by(const std::map<std::string, Peer>& peers,
+                                                   const std::string& self, Stamp now);
+  /// Whom to ask now, if anybody.
+  std::optional<std::string> whom(const WantedStretch& stretch, Stamp now,
+                                  const std::map<std::string, Peer>& peers);
+
+  std::map<std::string, Asked> asked_;
+};
+
+}  // namespace radioslam

@@ -1,0 +1,38 @@
+// What the robots of a recorded mission say on their way, each time that their programs run.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "radioslam/base/stamp.hpp"
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/pipeline/params.hpp"
+
+namespace radioslam {
+
+/// What a robot's front end says while its program runs once.
+struct ScriptedRun {
+  Stamp begin;
+  std::optional<Stamp> killed;
+  std::vector<std::pair<Stamp, std::string>> records;  ///< encoded, when they are said
+  bool odometry_goes_on = false;                       ///< of the run before
+};
+struct ScriptedRobot {
+  std::string name;
+  std::vector<ScriptedRun> runs;
+};
+
+/// From a robot's end to its new beginning.
+inline constexpr double kRestart_s = 5;
+
+/// The first odometry or scan of the mission.
+Stamp begin_of(const Mission& mission);
+
+/// In parallel. `killed`: by robot, when its program ends without notice; kRestart_s later another begins.
+std::vector<ScriptedRobot> scripted_robots(const Mission& mission, const RunParams& params,
+                                           const std::map<std::string, Stamp>& killed = {});
+
+}  // namespace radioslam

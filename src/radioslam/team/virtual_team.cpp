@@ -1,0 +1,258 @@
+#include "radioslam/team/virtual_team.hpp"
+
+#include <algorithm>
+#include <deque>
+
+#include "radioslam/base/random.hpp"
+#include "radioslam/records/resumed_log.hpp"
+
+namespace radioslam {
+namespace {
+
+constexpr double kTick_s = 0.1, kCommit_s = 1, kObserve_s = 5, kSettle_s = 120;
+constexpr double kExtend_s = 0.1, kJudge_s = 1;  // virtual time of an estimate
+constexpr std::size_t kShared = 8;               // estimates that are kept for others
+
+class MemoryStore : public AgentStore {
+ public:
+  MemoryStore(std::string robot, std::uint32_t life) : robot_(std::move(robot)) { logs_[robot_].life = life; }
+
+  AgentMemory memory() const override { return {logs_.at(robot_).life, {logs_.begin(), logs_.end()}}; }
+  void commit(const JournalChange& change) override {
+    for (const std::string& robot : change.forgotten) logs_.erase(robot);
+    for (const JournalChange::Kept& kept : change.kept) {
+      KnownLog& log = logs_[kept.robot];
+      log.life = kept.life;
+      for (std::size_t k = 0; k < kept.records.size(); ++k)
+        log.records.emplace(kept.first + k, kept.records[k]);
+    }
+    for (std::size_t k = 0; k < change.own.size(); ++k)
+      logs_[robot_].records.emplace(change.first_own + k, change.own[k]);
+  }
+
+ private:
+  std::string robot_;
+  std::map<std::string, KnownLog> logs_;
+};
+
+/// A robot: its program, while it runs, and what outlives it.
+struct Host {
+  const ScriptedRobot* script = nullptr;
+  std::unique_ptr<AgentStore> store;
+  std::unique_ptr<Agent> agent;
+  std::optional<ResumedLog> resumed;
+  std::size_t run = 0, next = 0;  ///< of the script; record of the run
+  std::optional<Stamp> committed, observed;
+  std::deque<std::pair<Stamp, AnyGrownEstimate>> done;
+
+  const ScriptedRun* current() const { return run < script->runs.size() ? &script->runs[run] : nullptr; }
+};
+
+struct Flight {
+  Stamp arrives;
+  std::size_t from = 0, to = 0;
+  std::string bytes;
+};
+
+class VirtualTeam {
+ public:
+  VirtualTeam(const std::vector<ScriptedRobot>& robots, const VirtualTeamSetup& setup,
+              const Progress& progress)
+      : setup_(setup), progress_(progress), random_(setup.network.seed) {
+    for (const ScriptedRobot& robot : robots) {
+      Host& host = hosts_.emplace_back();
+      host.script = &robot;
+      host.store = setup.store(robot.name);
+      for (const ScriptedRun& run : robot.runs) {
+        begin_ = begin_ ? std::min(*begin_, run.begin) : run.begin;
+        for (const auto& [stamp, record] : run.records) last_ = std::max(last_, stamp);
+      }
+    }
+  }
+
+  TeamRun run() {
+    if (!begin_) return {};
+    last_ = std::max(last_, *begin_);
+    const Stamp end{last_.ns + Stamp::from_seconds(kSettle_s).ns};
+    for (std::int64_t tick = 0;; ++tick) {
+      const Stamp now{begin_->ns + tick * Stamp::from_seconds(kTick_s).ns};
+      for (Host& host : hosts_) live(host, now);
+      deliver(now);
+      for (std::size_t k = 0; k < hosts_.size(); ++k) act(k, now);
+      report_progress(progress_, "team", seconds_between(*begin_, now) / seconds_between(*begin_, end));
+      run_.end = now;
+      if (now > end || (now > last_ && tick % 10 == 0 && is_settled())) break;
+    }
+    for (Host& host : hosts_) conclude(host);
+    return std::move(run_);
+  }
+
+ private:
+  /// Starts and kills the robot's program, and lets its front end say what is due.
+  void live(Host& host, Stamp now) {
+    const ScriptedRun* run = host.current();
+    if (run && host.agent && run->killed && *run->killed <= now) {
+      host.agent.reset();
+      host.done.clear();
+      ++host.run;
+      run = host.current();
+      run_.events.push_back({host.script->name, {now, "is killed"}});
+    }
+    if (run && !host.agent && run->begin <= now) start(host, now);
+    if (!run || !host.agent) return;
+    for (; host.next < run->records.size() && run->records[host.next].first <= now; ++host.next) {
+      const std::string& record = run->records[host.next].second;
+      ++said_;
+      if (!host.resumed)
+        host.agent->say(record);
+      else if (auto continued = host.resumed->continued(record))
+        host.agent->say(*std::move(continued));
+    }
+  }
+
+  void start(Host& host, Stamp now) {
+    const AgentMemory memory = host.store->memory();
+    AgentParams params = setup_.agent;
+    params.solves = static_cast<std::size_t>(&host - hosts_.data()) < setup_.solvers;
+    host.agent = std::make_unique<Agent>(host.script->name, setup_.dimension, setup_.run, params, memory);
+    host.next = 0;
+    host.resumed.reset();
+    if (host.run == 0) return;
+    run_.events.push_back({host.script->name, {now, "is started again"}});
+    host.resumed.emplace(host.agent->logs().log(host.script->name),
+                         host.script->runs[host.run].odometry_goes_on);
+  }
+
+  void deliver(Stamp now) {
+    while (!flights_.empty() && flights_.front().arrives <= now) {
+      const Flight flight = std::move(flights_.front());
+      flights_.pop_front();
+      if (hosts_[flight.to].agent)
+        hosts_[flight.to].agent->hear(hosts_[flight.from].script->name, flight.bytes, now);
+    }
+  }
+
+  void act(std::size_t k, Stamp now) {
+    Host& host = hosts_[k];
+    if (!host.agent) return;
+    while (!host.done.empty() && host.done.front().first <= now) {
+      host.agent->done(host.done.front().second, now);
+      host.done.pop_front();
+      observe(host, now);
+    }
+    if (!host.committed || seconds_between(*host.committed, now) >= kCommit_s) {
+      if (const JournalChange change = host.agent->change(); !change.empty()) host.store->commit(change);
+      host.agent->note_kept();
+      host.committed = now;
+    }
+    AgentStep step = host.agent->step(now);
+    for (const SentMessage& message : step.messages) send(k, message, now);
+    for (TeamEvent& event : step.events) run_.events.push_back({host.script->name, std::move(event)});
+    if (step.job) make(host, *step.job, now);
+  }
+
+  void send(std::size_t from, const SentMessage& message, Stamp now) {
+    for (std::size_t to = 0; to < hosts_.size(); ++to) {
+      if (to == from || (!message.to.empty() && message.to != hosts_[to].script->name)) continue;
+      LinkTraffic& traffic = run_.traffic[{hosts_[from].script->name, hosts_[to].script->name, message.kind}];
+      ++traffic.messages;
+      traffic.bytes += message.bytes.size();
+      if (!reaches(from, to, now) || random_.uniform() < setup_.network.loss)
+        ++traffic.lost;
+      else
+        flights_.push_back(
+            {Stamp{now.ns + Stamp::from_seconds(setup_.network.delay_s).ns}, from, to, message.bytes});
+    }
+  }
+
+  bool reaches(std::size_t from, std::size_t to, Stamp now) const {
+    const auto& partition = setup_.network.partition;
+    const auto& late = setup_.network.late;
+    const auto is_off = [&](std::size_t k) {
+      const auto on = late.find(hosts_[k].script->name);
+      return on != late.end() && now < on->second;
+    };
+    if (is_off(from) || is_off(to) || !hosts_[to].agent) return false;
+    const std::size_t half = (hosts_.size() + 1) / 2;
+    const bool is_divided = partition && partition->first <= now && now < partition->second;
+    return !is_divided || (from < half) == (to < half);
+  }
+
+  void make(Host& host, const EstimateJob& job, Stamp now) {
+    ++run_.estimates;
+    auto found =
+        std::find_if(shared_.begin(), shared_.end(), [&](const auto& of) { return of.first == job.key; });
+    if (found == shared_.end()) {
+      ++run_.computed;
+      shared_.emplace_front(job.key, job.run());
+      if (shared_.size() > kShared) shared_.pop_back();
+      found = shared_.begin();
+    }
+    const bool is_short = std::visit(
+        [](const auto& grown) { return !grown.solution || grown.solution->effort == Effort::kExtend; },
+        found->second);
+    host.done.emplace_back(Stamp{now.ns + Stamp::from_seconds(is_short ? kExtend_s : kJudge_s).ns},
+                           found->second);
+  }
+
+  void observe(Host& host, Stamp now) {
+    if (host.observed && seconds_between(*host.observed, now) < kObserve_s) return;
+    host.observed = now;
+    const auto frame = host.agent->estimate().largest_frame();
+    if (frame.empty()) return;
+    KnownThen then{now, host.script->name, 0, frame.size(), {}};
+    std::uint64_t known = 0;
+    for (const auto& [robot, extent] : host.agent->logs().extents()) known += extent.records;
+    then.share = said_ == 0 ? 1 : static_cast<double>(known) / static_cast<double>(said_);
+    if (setup_.error_of) then.error_m = setup_.error_of(frame);
+    run_.known.push_back(std::move(then));
+  }
+
+  bool is_settled() const {
+    const Agent* first = nullptr;
+    for (const Host& host : hosts_) {
+      if (!host.agent) {
+        if (host.current()) return false;
+        continue;
+      }
+      if (!first) first = host.agent.get();
+      if (host.agent->logs().extents() != first->logs().extents()) return false;
+    }
+    return true;
+  }
+
+  void conclude(Host& host) {
+    if (!host.agent) return;
+    auto& logs = run_.logs[host.script->name];
+    for (const auto& [robot, extent] : host.agent->logs().extents()) {
+      RobotLog& log = logs.emplace_back(RobotLog{robot, {}});
+      for (const auto& [number, record] : host.agent->logs().log(robot).records)
+        if (number < extent.records) log.records.push_back(record);
+    }
+    run_.extents[host.script->name] = host.agent->logs().extents();
+  }
+
+  const VirtualTeamSetup& setup_;
+  const Progress& progress_;
+  Rng random_;
+  std::vector<Host> hosts_;
+  std::deque<Flight> flights_;
+  std::deque<std::pair<std::string, AnyGrownEstimate>> shared_;
+  std::optional<Stamp> begin_;
+  Stamp last_;
+  std::size_t said_ = 0;
+  TeamRun run_;
+};
+
+}  // namespace
+
+std::unique_ptr<AgentStore> store_in_memory(const std::string& robot, std::uint32_t life) {
+  return std::make_unique<MemoryStore>(robot, life);
+}
+
+TeamRun run_team(const std::vector<ScriptedRobot>& robots, const VirtualTeamSetup& setup,
+                 const Progress& progress) {
+  return VirtualTeam(robots, setup, progress).run();
+}
+
+}  // namespace radioslam

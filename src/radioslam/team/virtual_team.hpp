@@ -1,0 +1,79 @@
+// A team of agents in one process and in virtual time, over a network that loses, delays and divides: every
+// fault of a real one, the same for the same seed.
+//
+// Everybody hears everybody. A robot that is killed keeps what its store has and loses all else; it is
+// started again kRestart_s later, with a new front end. One that is late has its radio off until then.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "radioslam/base/progress.hpp"
+#include "radioslam/team/agent.hpp"
+#include "radioslam/team/scripted_robots.hpp"
+
+namespace radioslam {
+
+struct NetworkFaults {
+  double loss = 0;  ///< probability that a message does not arrive, each way
+  double delay_s = 0.05;
+  std::optional<std::pair<Stamp, Stamp>> partition;  ///< the first half of the robots hears not the second
+  std::map<std::string, Stamp> late;                 ///< by robot: when its radio is switched on
+  std::uint64_t seed = 1;
+};
+
+/// What outlives an agent.
+class AgentStore {
+ public:
+  virtual ~AgentStore() = default;
+  virtual AgentMemory memory() const = 0;
+  virtual void commit(const JournalChange& change) = 0;
+};
+std::unique_ptr<AgentStore> store_in_memory(const std::string& robot, std::uint32_t life);
+
+struct LinkTraffic {
+  std::size_t messages = 0, bytes = 0, lost = 0;
+};
+
+/// An agent's state at a time.
+struct KnownThen {
+  Stamp at;
+  std::string agent;
+  double share = 0;                 ///< of the records that all robots have said
+  std::size_t robots_in_frame = 1;  ///< of the largest frame it knows
+  std::optional<double> error_m{};  ///< of that frame, where the truth is known
+};
+
+struct TeamRun {
+  std::map<std::tuple<std::string, std::string, std::size_t>, LinkTraffic> traffic;  ///< from, to, kind
+  std::vector<KnownThen> known;                                                      ///< in time order
+  std::vector<std::pair<std::string, TeamEvent>> events;  ///< by agent, in time order
+  std::map<std::string, std::vector<RobotLog>> logs;  ///< by agent: what it knows in the end, without gaps
+  std::map<std::string, std::map<std::string, LogExtent>> extents;  ///< of these logs
+  std::size_t estimates = 0, computed = 0;                          ///< computed: not shared
+  Stamp end;
+};
+
+struct VirtualTeamSetup {
+  int dimension = 2;
+  const RunParams& run;
+  AgentParams agent;
+  NetworkFaults network;
+  std::size_t solvers = kMaxTeam;  ///< the first robots; others take their solutions
+  std::function<std::unique_ptr<AgentStore>(const std::string&)> store;
+  std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of;
+};
+
+/// Until every agent that runs knows all, or nothing more comes.
+TeamRun run_team(const std::vector<ScriptedRobot>& robots, const VirtualTeamSetup& setup,
+                 const Progress& progress = {});
+
+}  // namespace radioslam

@@ -1,0 +1,100 @@
+#include "radioslam/team/known_logs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "radioslam/records/record_codec.hpp"
+
+namespace radioslam {
+namespace {
+
+std::string keyframe(std::uint32_t number, double x_m = 1) {
+  KeyframeRecord record;
+  record.number = number;
+  record.stamp = Stamp::from_seconds(number);
+  record.T_before_this = SE3({x_m, 0, 0}, Eigen::Quaterniond::Identity());
+  return encode(Record(record));
+}
+
+/// Chunks of keyframes, as the robot says them.
+std::string chunks(const std::string& robot, std::uint32_t life, std::uint64_t first, std::uint64_t end,
+                   double x_m = 1) {
+  KnownLog log{life, {}};
+  for (std::uint64_t k = 0; k < end; ++k) log.records[k] = keyframe(static_cast<std::uint32_t>(k), x_m);
+  return log.bytes(robot, first, end, kMaxAgentMessageBytes).first;
+}
+
+TEST(KnownLogs, GrowWithoutGapsHoweverRecordsCome) {
+  KnownLogs logs("a", 1, {});
+  EXPECT_TRUE(logs.accept("b", chunks("b", 3, 4, 8)).empty());
+  EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 0}));
+  EXPECT_EQ(logs.known_beyond("b"), 4U);
+  EXPECT_TRUE(logs.accept("c", chunks("b", 3, 0, 5)).empty());
+  EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 8}));
+  EXPECT_EQ(logs.known_beyond("b"), 0U);
+}
+
+TEST(KnownLogs, OwnRecordsAreSentOnlyWhenTheyAreKept) {
+  KnownLogs logs("a", 1, {});
+  logs.say(keyframe(0));
+  EXPECT_EQ(logs.extents().at("a").records, 0U);
+  const JournalChange change = logs.change();
+  EXPECT_EQ(change.first_own, 0U);
+  ASSERT_EQ(change.own.size(), 1U);
+  logs.note_kept();
+  EXPECT_EQ(logs.extents().at("a").records, 1U);
+  EXPECT_TRUE(logs.change().empty());
+}
+
+TEST(KnownLogs, NobodyCanSayWhatAnotherRobotSaid) {
+  KnownLogs logs("a", 1, {});
+  EXPECT_TRUE(logs.accept("liar", chunks("b", 3, 0, 4, 9)).empty());  // nobody has heard b
+  EXPECT_TRUE(logs.accept("b", chunks("b", 3, 0, 6)).empty());
+  EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 6}));
+  EXPECT_EQ(logs.log("b").records.at(2), keyframe(2));
+  EXPECT_TRUE(logs.take_replaced().contains("b"));
+  EXPECT_FALSE(logs.accept("liar", chunks("b", 3, 6, 8, 9)).empty());
+  EXPECT_FALSE(logs.accept("liar", chunks("b", 4, 0, 8, 9)).empty());
+  EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 6}));
+  EXPECT_TRUE(logs.accept("c", chunks("b", 3, 6, 8)).empty());
+  EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 8}));
+}
+
+TEST(KnownLogs, NobodyCanSayWhatThisRobotSaid) {
+  KnownLogs logs("a", 1, {});
+  logs.say(keyframe(0));
+  logs.note_kept();
+  EXPECT_TRUE(logs.accept("b", chunks("a", 1, 0, 1)).empty());
+  EXPECT_FALSE(logs.accept("b", chunks("a", 1, 0, 1, 9)).empty());
+  EXPECT_FALSE(logs.accept("b", chunks("a", 1, 1, 2)).empty());
+  EXPECT_EQ(logs.extents().at("a"), (LogExtent{1, 1}));
+}
+
+TEST(KnownLogs, ANewLifeReplacesTheOldOneWhenTheRobotSaysIt) {
+  KnownLogs logs("a", 1, {});
+  logs.accept("b", chunks("b", 3, 0, 6));
+  logs.note_kept();
+  EXPECT_FALSE(logs.accept("c", chunks("b", 4, 0, 2)).empty());
+  EXPECT_EQ(logs.extents().at("b").life, 3U);
+  EXPECT_TRUE(logs.accept("b", chunks("b", 4, 0, 2)).empty());
+  EXPECT_EQ(logs.extents().at("b"), (LogExtent{4, 2}));
+  const JournalChange change = logs.change();
+  EXPECT_EQ(change.forgotten, std::vector<std::string>{"b"});
+  ASSERT_EQ(change.kept.size(), 1U);
+  EXPECT_EQ(change.kept[0].life, 4U);
+}
+
+TEST(KnownLogs, GoOnFromWhatWasKept) {
+  KnownLog own{1, {{0, keyframe(0)}, {1, keyframe(1)}}};
+  KnownLog of_b{3, {{0, keyframe(0)}}};
+  KnownLogs logs("a", 1, {{"a", own}, {"b", of_b}});
+  EXPECT_EQ(logs.extents().at("a"), (LogExtent{1, 2}));
+  EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 1}));
+  EXPECT_TRUE(logs.change().empty());
+  KnownLogs anew("a", 2, {{"a", own}});
+  EXPECT_EQ(anew.extents().at("a"), (LogExtent{2, 0}));
+}
+
+}  // namespace
+}  // namespace radioslam
