@@ -67,7 +67,7 @@ struct Air {
 
 TEST(Agent, KnowsWhatOthersSayThoughMostIsLost) {
   const auto a = agent("a"), b = agent("b"), c = agent("c");
-  Air air{{a.get(), b.get(), c.get()}, 0.6};
+  Air air{{a.get(), b.get(), c.get()}, 0.4};
   for (std::uint32_t k = 0; k < 60; ++k) {
     for (Agent* of : air.agents) drive(*of, k);
     air.run(1);

@@ -29,10 +29,12 @@ TEST(KnownLogs, GrowWithoutGapsHoweverRecordsCome) {
   KnownLogs logs("a", 1, {});
   EXPECT_TRUE(logs.accept("b", chunks("b", 3, 4, 8)).empty());
   EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 0}));
-  EXPECT_EQ(logs.known_beyond("b"), 4U);
+  EXPECT_EQ(logs.missing("b", 9).size(), 2U);
+  EXPECT_EQ(logs.missing("b", 9).front(), std::pair(std::uint64_t{0}, std::uint64_t{3}));
+  EXPECT_EQ(logs.missing("b", 9).back(), std::pair(std::uint64_t{8}, std::uint64_t{8}));
   EXPECT_TRUE(logs.accept("c", chunks("b", 3, 0, 5)).empty());
   EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 8}));
-  EXPECT_EQ(logs.known_beyond("b"), 0U);
+  EXPECT_TRUE(logs.missing("b", 8).empty());
 }
 
 TEST(KnownLogs, OwnRecordsAreSentOnlyWhenTheyAreKept) {

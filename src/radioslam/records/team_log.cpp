@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kMagic = "RSL2";
 constexpr std::size_t kMaxChunkRecords = 256, kMaxChunkBytes = 60000, kMaxRefusals = 8, kMaxDamaged = 16,
-                      kChunkFrame = 1000;  // of a chunk's bytes, for all but its records
+                      kChunkFrame = 32;  // bytes of a chunk without its records and the robot's name
 constexpr std::uint64_t kMaxRecords = std::uint64_t{1} << 40U;
 
 constexpr std::array<std::uint32_t, 256> crc_table() {
@@ -83,10 +83,10 @@ template <class Index, class RecordAt>
 std::string next_chunk(const std::pair<std::string_view, std::uint32_t>& robot_life, Index& first, Index end,
                        std::size_t most_bytes, const RecordAt& record) {
   const auto& [robot, life] = robot_life;
-  std::size_t size = kChunkFrame;
+  std::size_t size = kChunkFrame + robot.size();
   Index last = first;
   for (; last < end && last - first < kMaxChunkRecords; ++last) {
-    size += record(last).size() + 4;
+    size += record(last).size() + 3;
     if (last > first && size > most_bytes) break;
   }
   WireWriter out;
@@ -134,8 +134,12 @@ std::pair<std::string, std::uint64_t> KnownLog::bytes(const std::string& robot, 
                                                       std::uint64_t end, std::size_t most_bytes) const {
   std::string all;
   const auto record = [this](std::uint64_t k) -> const std::string& { return records.at(k); };
-  while (first < end && all.size() < most_bytes)
-    all += next_chunk({robot, life}, first, end, std::min(kMaxChunkBytes, most_bytes - all.size()), record);
+  const auto fits = [&] {
+    return all.size() + kChunkFrame + robot.size() + record(first).size() + 3 <= most_bytes;
+  };
+  while (first < end && (all.empty() || fits()))
+    all += next_chunk({robot, life}, first, end,
+                      std::min(kMaxChunkBytes, most_bytes - std::min(most_bytes, all.size())), record);
   return {std::move(all), first};
 }
 

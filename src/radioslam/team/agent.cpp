@@ -68,16 +68,17 @@ void Agent::take(const std::string& peer, const RecordsMessage& records, Stamp n
 }
 
 void Agent::take(const std::string& peer, const Want& want, Stamp now) {
-  for (const WantedStretch& stretch : want.stretches) {
+  std::map<std::string, std::vector<WantedStretch>>& wanted = peers_.at(peer).wanted;
+  for (const WantedStretch& stretch : want.stretches) wanted.erase(stretch.robot);
+  for (WantedStretch stretch : want.stretches) {
     const auto extent = logs_.extents().find(stretch.robot);
     if (extent == logs_.extents().end() || extent->second.life != stretch.life ||
         extent->second.records <= stretch.first) {
-      refuse(peer, "wishes for records that it does not have", 1, now);
+      refuse(peer, "wants of records that this robot does not have", 1, now);
       continue;
     }
-    WantedStretch owed = stretch;
-    owed.end = std::min(owed.end, extent->second.records);
-    peers_.at(peer).wanted[stretch.robot] = owed;
+    stretch.end = std::min(stretch.end, extent->second.records);
+    wanted[stretch.robot].push_back(stretch);
   }
 }
 
@@ -106,8 +107,9 @@ AgentStep Agent::step(Stamp now) {
   send_digest(now, step);
   if (!asked_ || seconds_between(*asked_, now) >= kAsk_s) {
     asked_ = now;
-    for (auto& [peer, want] : asking_.wants(now, name_, logs_.extents(), peers_,
-                                            [&](const auto& robot) { return logs_.known_beyond(robot); }))
+    for (auto& [peer, want] :
+         asking_.wants(now, name_, logs_.extents(), peers_,
+                       [&](const auto&robot, std::uint64_t end) { return logs_.missing(robot, end); }))
       wants_[peer] = std::move(want);
   }
   const bool pushes = !own_sent_ || seconds_between(*own_sent_, now) >= kOwn_s;
@@ -171,15 +173,23 @@ void Agent::send_solution(Stamp now, AgentStep& step) {
 void Agent::send_to(const std::string& name, Peer& peer, bool pushes, AgentStep& step) {
   if (const auto want = wants_.find(name); want != wants_.end() && send(name, peer, want->second, step))
     wants_.erase(want);
-  if (pushes && !send_records(name, peer, name_, peer.sent_own, logs_.extents().at(name_).records, step))
-    return;
-  for (auto wanted = peer.wanted.begin(); wanted != peer.wanted.end();) {
-    WantedStretch& stretch = wanted->second;
-    const auto extent = logs_.extents().find(stretch.robot);
-    const bool is_there = extent != logs_.extents().end() && extent->second.life == stretch.life;
-    if (is_there && !send_records(name, peer, stretch.robot, stretch.first, stretch.end, step)) return;
-    wanted = peer.wanted.erase(wanted);
+  RecordsMessage message;
+  const auto add = [&](const std::string& robot, std::uint64_t& first, std::uint64_t end) {
+    return add_records(name, peer, robot, first, end, message, step);
+  };
+  bool goes_on = !pushes || add(name_, peer.sent_own, logs_.extents().at(name_).records);
+  while (goes_on && !peer.wanted.empty()) {
+    const auto wanted = peer.wanted.begin();
+    const auto extent = logs_.extents().find(wanted->first);
+    for (auto& stretches = wanted->second; goes_on && !stretches.empty();) {
+      WantedStretch& next = stretches.front();
+      const bool is_there = extent != logs_.extents().end() && extent->second.life == next.life;
+      goes_on = !is_there || add(next.robot, next.first, next.end);
+      if (goes_on) stretches.erase(stretches.begin());
+    }
+    if (goes_on) peer.wanted.erase(wanted);
   }
+  if (!message.chunks.empty()) send(name, peer, message, step);
 }
 
 bool Agent::send(const std::string& to, Peer& peer, const AgentMessage& message, AgentStep& step) {
@@ -190,14 +200,21 @@ bool Agent::send(const std::string& to, Peer& peer, const AgentMessage& message,
   return true;
 }
 
-/// Moves `first` to the first record that was not sent. Whether all were.
-bool Agent::send_records(const std::string& to, Peer& peer, const std::string& robot, std::uint64_t& first,
-                         std::uint64_t end, AgentStep& step) {
+/// Adds records to the message, and sends it where it is full. Moves `first` to the first record that was not
+/// taken; whether all were.
+bool Agent::add_records(const std::string& to, Peer& peer, const std::string& robot, std::uint64_t& first,
+                        std::uint64_t end, RecordsMessage& message, AgentStep& step) {
+  constexpr std::size_t kEnvelope = 64;  // and some more
   while (first < end) {
-    const std::size_t most = peer.budget.at_most(kMostRecordBytes);
-    if (most == 0) return false;
-    auto [bytes, next] = logs_.log(robot).bytes(robot, first, end, most);
-    if (!send(to, peer, RecordsMessage{std::move(bytes)}, step)) return false;
+    const std::size_t most = peer.budget.at_most(kMostRecordBytes), used = message.chunks.size() + kEnvelope;
+    const std::size_t next_bytes = logs_.log(robot).records.at(first).size() + robot.size() + kEnvelope;
+    if (used + next_bytes > most) {
+      if (message.chunks.empty()) return false;
+      send(to, peer, std::exchange(message, {}), step);
+      continue;
+    }
+    auto [bytes, next] = logs_.log(robot).bytes(robot, first, end, most - used);
+    message.chunks += bytes;
     first = next;
   }
   return true;

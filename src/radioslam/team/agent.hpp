@@ -91,8 +91,8 @@ class Agent {
   void send_solution(Stamp now, AgentStep& step);
   void send_to(const std::string& name, Peer& peer, bool pushes, AgentStep& step);
   bool send(const std::string& to, Peer& peer, const AgentMessage& message, AgentStep& step);
-  bool send_records(const std::string& to, Peer& peer, const std::string& robot, std::uint64_t& first,
-                    std::uint64_t end, AgentStep& step);
+  bool add_records(const std::string& to, Peer& peer, const std::string& robot, std::uint64_t& first,
+                   std::uint64_t end, RecordsMessage& message, AgentStep& step);
 
   std::string name_;
   int dimension_;

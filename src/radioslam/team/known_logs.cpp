@@ -77,12 +77,22 @@ void KnownLogs::accept(const std::string& sender, const LogChunk& chunk, Refusal
   if (accepted.records > 0) extend(robot);
 }
 
-std::uint64_t KnownLogs::known_beyond(const std::string& robot) const {
+std::vector<std::pair<std::uint64_t, std::uint64_t>> KnownLogs::missing(const std::string& robot,
+                                                                        std::uint64_t end) const {
+  constexpr std::size_t kMost = 64;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> missing;
   const auto extent = extents_.find(robot);
-  if (extent == extents_.end()) return 0;
-  const auto& records = log(robot).records;
-  const auto next = records.lower_bound(extent->second.records);
-  return next == records.end() ? 0 : next->first;
+  std::uint64_t next = extent == extents_.end() ? 0 : extent->second.records;
+  if (extent != extents_.end()) {
+    const auto& records = log(robot).records;
+    for (auto known = records.lower_bound(next);
+         known != records.end() && known->first < end && missing.size() < kMost; ++known) {
+      if (known->first > next) missing.emplace_back(next, known->first - 1);
+      next = known->first + 1;
+    }
+  }
+  if (next < end && missing.size() < kMost) missing.emplace_back(next, end - 1);
+  return missing;
 }
 
 JournalChange KnownLogs::change() const {

@@ -35,8 +35,9 @@ class KnownLogs {
   const KnownLog& log(const std::string& robot) const {
     return robot == self_ ? own_ : team_.robots().at(robot);
   }
-  /// Number of the first record beyond the robot's extent that is known; 0 if there is none.
-  std::uint64_t known_beyond(const std::string& robot) const;
+  /// First and last number of the stretches before `end` that are not known, at most 64.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> missing(const std::string& robot,
+                                                               std::uint64_t end) const;
 
   /// What the journal does not have yet; kept when it says so.
   JournalChange change() const;

@@ -11,7 +11,7 @@ namespace radioslam {
 namespace {
 
 constexpr std::string_view kMagic = "RST1";
-constexpr std::size_t kMaxStretches = 256, kMaxClouds = 256;
+constexpr std::size_t kMaxClouds = 256;
 
 void put_name(WireWriter& out, const std::string& name) {
   out.whole(name.size());

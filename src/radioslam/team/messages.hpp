@@ -25,7 +25,8 @@
 namespace radioslam {
 
 inline constexpr std::size_t kMaxAgentMessageBytes = 60000;
-inline constexpr std::size_t kMaxTeam = 256;  ///< robots in a digest
+inline constexpr std::size_t kMaxTeam = 256;       ///< robots in a digest
+inline constexpr std::size_t kMaxStretches = 256;  ///< in a want
 
 /// How much of a robot's log somebody has.
 struct LogExtent {

@@ -37,29 +37,58 @@ std::map<std::string, LogExtent> Asking::known_by(const std::map<std::string, Pe
   return most;
 }
 
-std::optional<std::string> Asking::whom(const WantedStretch& stretch, Stamp now,
+std::map<std::string, Want> Asking::wants(Stamp now, const std::string& self,
+                                          const std::map<std::string, LogExtent>& extents,
+                                          const std::map<std::string, Peer>& peers, const Missing& missing) {
+  std::map<std::string, Want> wants;
+  for (const auto& [robot, most] : known_by(peers, self, now)) {
+    const auto own = extents.find(robot);
+    const bool is_other_life = own == extents.end() || own->second.life != most.life;
+    if (!is_other_life && own->second.records >= most.records) continue;
+    if (is_other_life && own != extents.end() && own->second.life > most.life) continue;
+    if (most.records == 0) continue;
+    const Stretches lacking = is_other_life ? Stretches{{0, most.records - 1}} : missing(robot, most.records);
+    const auto peer = whom(robot, most, lacking, now, peers);
+    if (!peer) continue;
+    for (const auto& [first, last] : lacking)
+      wants[*peer].stretches.push_back({robot, most.life, first, last + 1});
+  }
+  for (auto& [peer, want] : wants) want.stretches.resize(std::min(want.stretches.size(), kMaxStretches));
+  return wants;
+}
+
+std::optional<std::string> Asking::whom(const std::string& robot, const LogExtent& most,
+                                        const Stretches& missing, Stamp now,
                                         const std::map<std::string, Peer>& peers) {
   std::vector<std::string> able;
   for (const auto& [name, peer] : peers) {
-    const auto extent = peer.knows.find(stretch.robot);
-    if (!peer.is_heard(now) || extent == peer.knows.end() || extent->second.life != stretch.life ||
-        extent->second.records <= stretch.first)
+    const auto extent = peer.knows.find(robot);
+    if (!peer.is_heard(now) || extent == peer.knows.end() || extent->second.life != most.life ||
+        extent->second.records <= missing.front().first)
       continue;
-    able.insert(name == stretch.robot ? able.begin() : able.end(), name);
+    able.insert(name == robot ? able.begin() : able.end(), name);
   }
   if (able.empty()) return std::nullopt;
-  Asked& asked = asked_.try_emplace(stretch.robot).first->second;
-  const bool is_open = asked.stretch.life == stretch.life && stretch.first < asked.stretch.end;
-  if (is_open) {
-    if (asked.stretch.first != stretch.first) asked.at = now;  // it comes
-    asked.stretch.first = stretch.first;
+  const auto count = [&](std::uint64_t end) {
+    std::uint64_t left = 0;
+    for (const auto& [first, last] : missing)
+      if (first < end) left += std::min(last + 1, end) - first;
+    return left;
+  };
+  Asked& asked = asked_.try_emplace(robot).first->second;
+  const std::uint64_t left = asked.life == most.life ? count(asked.end) : 0;
+  if (left > 0) {
+    if (left < asked.left) asked.at = now;  // it comes
+    asked.left = left;
     if (seconds_between(asked.at, now) < kRepeat_s) return std::nullopt;
     ++asked.tries;
   } else {
     asked.tries = 0;
   }
   asked.at = now;
-  asked.stretch = stretch;
+  asked.life = most.life;
+  asked.end = most.records;
+  asked.left = count(asked.end);
   return able[asked.tries % able.size()];
 }
 

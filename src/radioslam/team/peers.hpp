@@ -6,10 +6,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/team/messages.hpp"
@@ -37,11 +40,11 @@ class ByteBudget {
 
 struct Peer {
   std::optional<Stamp> heard;
-  std::map<std::string, LogExtent> knows;       ///< as it last said
-  bool solves = true;                           ///< as it last said
-  std::uint64_t sent_own = 0;                   ///< own records up to this number are sent
-  std::map<std::string, WantedStretch> wanted;  ///< by it, by robot
-  std::set<Stamp> clouds;                       ///< wanted by it
+  std::map<std::string, LogExtent> knows;                    ///< as it last said
+  bool solves = true;                                        ///< as it last said
+  std::uint64_t sent_own = 0;                                ///< own records up to this number are sent
+  std::map<std::string, std::vector<WantedStretch>> wanted;  ///< by it, by robot
+  std::set<Stamp> clouds;                                    ///< wanted by it
   ByteBudget budget;
   std::map<std::string, std::size_t> refused;  ///< of what it sent, by reason
 
@@ -54,37 +57,28 @@ class Asking {
  public:
   static constexpr double kRepeat_s = 2;
 
-  /// `extents`: what the agent has. `beyond`: the first record after them that it has, of a robot; 0: none.
-  template <class Beyond>
+  using Stretches = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
+  using Missing = std::function<Stretches(const std::string& robot, std::uint64_t end)>;
+
+  /// `extents`: what the agent has; `missing`: first and last numbers of what it lacks of a robot's life.
   std::map<std::string, Want> wants(Stamp now, const std::string& self,
                                     const std::map<std::string, LogExtent>& extents,
-                                    const std::map<std::string, Peer>& peers, const Beyond& beyond) {
-    std::map<std::string, Want> wants;
-    for (const auto& [robot, most] : known_by(peers, self, now)) {
-      const auto own = extents.find(robot);
-      const bool is_other_life = own == extents.end() || own->second.life != most.life;
-      if (!is_other_life && own->second.records >= most.records) continue;
-      if (is_other_life && own != extents.end() && own->second.life > most.life) continue;
-      const std::uint64_t has = is_other_life ? 0 : own->second.records;
-      const std::uint64_t next = is_other_life ? 0 : beyond(robot);
-      const WantedStretch stretch{robot, most.life, has, next > has ? next : most.records};
-      if (const auto peer = whom(stretch, now, peers)) wants[*peer].stretches.push_back(stretch);
-    }
-    return wants;
-  }
+                                    const std::map<std::string, Peer>& peers, const Missing& missing);
 
  private:
   struct Asked {
     Stamp at;
-    WantedStretch stretch;
+    std::uint32_t life = 0;
+    std::uint64_t left = 0;  ///< records of the stretches that did not come yet
+    std::uint64_t end = 0;
     std::size_t tries = 0;
   };
 
   static std::map<std::string, LogExtent> known_by(const std::map<std::string, Peer>& peers,
                                                    const std::string& self, Stamp now);
-  /// Whom to ask now, if anybody.
-  std::optional<std::string> whom(const WantedStretch& stretch, Stamp now,
-                                  const std::map<std::string, Peer>& peers);
+  /// Whom to ask now for what is missing of a robot's log, if anybody.
+  std::optional<std::string> whom(const std::string& robot, const LogExtent& most, const Stretches& missing,
+                                  Stamp now, const std::map<std::string, Peer>& peers);
 
   std::map<std::string, Asked> asked_;
 };

@@ -26,7 +26,7 @@ struct ScriptedRobot {
 };
 
 /// From a robot's end to its new beginning.
-inline constexpr double kRestart_s = 5;
+inline constexpr double kRestart_s = 2;
 
 /// The first odometry or scan of the mission.
 Stamp begin_of(const Mission& mission);

@@ -226,7 +226,7 @@ void add_team(CLI::App& program) {
   command->add_option("--partition", options->partition,
                       "T0:T1, seconds: the first half of the robots and the second do not hear each other");
   command->add_option("--kill", options->kills,
-                      "ROBOT@T: the robot's program is killed, and started again 5 s later; may be repeated");
+                      "ROBOT@T: the robot's program is killed, and started again 2 s later; may be repeated");
   command->add_option("--late", options->late,
                       "ROBOT:T: the robot's radio is off until then; may be repeated");
   command->add_option("--cap", options->cap, "Largest number of bytes a second from each robot to each other")
