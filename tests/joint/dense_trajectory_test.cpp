@@ -174,5 +174,29 @@ TEST(DenseTrajectory, LeavesOutWhatIsNotCovered) {
   EXPECT_TRUE(dense_trajectory<SE2>(walk.mission, joint, nullptr, 0, estimate, stamps).poses.empty());
 }
 
+/// Moved as a whole, the path is the same; where its end is not the estimate's, it is bent evenly in time.
+TYPED_TEST(DenseTrajectories, FollowAFinerPathFromRowToRow) {
+  using Pose = TypeParam;
+  const auto walk = winding_walk<Pose>(3, Rng(64));
+  const Trajectory<SE3>& path = walk.mission.robots[0].odometry;
+  const SE3 T = lift(SE2({5, -3}, 2)), bend = lift(SE2({0.1, 0}, 0));
+  const auto every_fifth = [&](const SE3& end) {
+    std::vector<StampedPose<SE3>> rows;
+    for (std::size_t k = 10; k <= 20; k += 5) rows.push_back({path[k].stamp, T * path[k].pose});
+    rows.back().pose = rows.back().pose * end;
+    return Trajectory<SE3>(std::move(rows));
+  };
+  const auto rigid = along_path<Pose>(every_fifth(SE3()), path),
+             bent = along_path<Pose>(every_fifth(bend), path);
+  ASSERT_EQ(rigid.size(), 11U);
+  ASSERT_EQ(bent.size(), 11U);
+  for (std::size_t k = 0; k < rigid.size(); ++k) {
+    EXPECT_EQ(rigid[k].stamp, path[10 + k].stamp);
+    EXPECT_LT((rigid[k].pose.inverse() * (T * path[10 + k].pose)).log().norm(), 1e-9);
+    const double share = k < 5 ? 0 : static_cast<double>(k - 5) / 5;
+    EXPECT_NEAR((rigid[k].pose.inverse() * bent[k].pose).log()[0], 0.1 * share, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace radioslam

@@ -57,6 +57,7 @@ struct LapRun {
   Trajectory<SE3> odometry;
   std::vector<std::string> notes;
   double worst_m = 0;
+  bool by_imu = false;
 };
 
 using Spoil = std::function<void(std::size_t, ImuSample&)>;
@@ -79,6 +80,7 @@ LapRun run_lap(const Spoil& spoil, bool enabled = true, PathFunction path_of_bod
   LapRun run;
   const MeasuredScans measured = measure_scans(mission, params, {}, {});
   run.notes = measured.notes;
+  run.by_imu = measured.robots[0]->by_imu.has_value();
   run.odometry = with_odometry(mission, measured, {}).robots[0].odometry;
   for (std::size_t k = 0; k < run.odometry.size(); ++k) {
     const SE3 path = run.odometry.front().pose.inverse() * run.odometry[k].pose;
@@ -95,6 +97,7 @@ void expect_left_out(const LapRun& run, const std::string& why) {
   ASSERT_EQ(run.notes.size(), 1U);
   EXPECT_NE(run.notes[0].find(why), std::string::npos) << run.notes[0];
   EXPECT_NE(run.notes[0].find("ignored"), std::string::npos) << run.notes[0];
+  EXPECT_FALSE(run.by_imu);
   const LapRun without = run_lap(keep, false);
   ASSERT_EQ(run.odometry.size(), without.odometry.size());
   for (std::size_t k = 0; k < run.odometry.size(); ++k)
@@ -105,6 +108,8 @@ void expect_used_well(PathFunction path_of_body) {
   const LapRun alone = run_lap(keep, false, path_of_body), run = run_lap(keep, true, path_of_body);
   EXPECT_TRUE(run.notes.empty()) << run.notes.front();
   EXPECT_EQ(run.odometry.size(), static_cast<std::size_t>(kScans));
+  EXPECT_TRUE(run.by_imu);
+  EXPECT_FALSE(alone.by_imu);
   EXPECT_LT(run.worst_m, 0.05);
   EXPECT_LT(run.worst_m, 1.2 * alone.worst_m);
 }

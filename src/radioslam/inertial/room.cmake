@@ -3,6 +3,7 @@ radioslam_room(inertial
     gravity_alignment.cpp
     imu_consistency.cpp
     imu_outliers.cpp
+    imu_path.cpp
     inertial_filter.cpp
     inertial_smoother.cpp
     odometry_noise_inflation.cpp

@@ -86,13 +86,37 @@ DenseTrajectory dense_trajectory(const Mission& mission, const JointGraph<Pose>&
                           mission.robots[robot].odometry.stamps());
 }
 
+template <class Pose>
+Trajectory<SE3> along_path(const Trajectory<SE3>& dense, const Trajectory<SE3>& path) {
+  std::vector<StampedPose<SE3>> rows;
+  auto next = path.begin();
+  for (std::size_t k = 0; k < dense.size(); ++k) {
+    if (k > 0) {
+      const auto &a = dense[k - 1], &b = dense[k];
+      const Pose T_frame_path = pose_as<Pose>(a.pose) * pose_as<Pose>(*path.at(a.stamp)).inverse();
+      const auto missing =
+          ((T_frame_path * pose_as<Pose>(*path.at(b.stamp))).inverse() * pose_as<Pose>(b.pose)).log().eval();
+      for (; next != path.end() && next->stamp < b.stamp; ++next) {
+        const double share = seconds_between(a.stamp, next->stamp) / seconds_between(a.stamp, b.stamp);
+        rows.push_back(
+            {next->stamp, as_se3(T_frame_path * pose_as<Pose>(next->pose) * Pose::exp(share * missing),
+                                 next->pose.translation().z())});
+      }
+    }
+    rows.push_back(dense[k]);
+    while (next != path.end() && next->stamp <= dense[k].stamp) ++next;
+  }
+  return Trajectory<SE3>(std::move(rows));
+}
+
 #define RADIOSLAM_DENSE_TRAJECTORY(Pose)                                                                     \
   template std::optional<ContinuousTrajectory<Pose>> continuous_trajectory(                                  \
       const Mission&, const JointGraph<Pose>&, const Marginals<Pose>*, std::size_t, const RobotResult&);     \
   template DenseTrajectory dense_trajectory(const Mission&, const JointGraph<Pose>&, const Marginals<Pose>*, \
                                             std::size_t, const RobotResult&, const std::vector<Stamp>&);     \
   template DenseTrajectory dense_trajectory(const Mission&, const JointGraph<Pose>&, const Marginals<Pose>*, \
-                                            std::size_t, const RobotResult&);
+                                            std::size_t, const RobotResult&);                                \
+  template Trajectory<SE3> along_path<Pose>(const Trajectory<SE3>&, const Trajectory<SE3>&);
 RADIOSLAM_DENSE_TRAJECTORY(SE2)
 RADIOSLAM_DENSE_TRAJECTORY(SE3)
 #undef RADIOSLAM_DENSE_TRAJECTORY

@@ -45,4 +45,10 @@ DenseTrajectory dense_trajectory(const Mission& mission, const JointGraph<Pose>&
                                  const Marginals<Pose>* marginals, std::size_t robot,
                                  const RobotResult& estimate);
 
+/// `dense`, with a pose more at every row of `path` between two of its own: the path from one to the next,
+/// with what it misses there spread evenly in time. `path`: a finer odometry, which covers the times of
+/// `dense`.
+template <class Pose>
+Trajectory<SE3> along_path(const Trajectory<SE3>& dense, const Trajectory<SE3>& path);
+
 }  // namespace radioslam

@@ -71,6 +71,7 @@ TrackedScans ScanFrontEnd::finish() {
   if (traits_) tracked.track = take_track();
   tracked.traits = traits_;
   if (gate_ && gate_->trust() == ImuTrust::kRejected) tracked.imu_fault = gate_->reason();
+  tracked.follows_imu = gate_ && gate_->trust() == ImuTrust::kTrusted;
   tracked.imu_outliers = outliers_.removed();
   return tracked;
 }

@@ -37,6 +37,7 @@ struct TrackedScans {
   std::optional<ScannerTraits> traits;
   std::optional<std::string> imu_fault;  ///< why the IMU was not used, in words that follow the robot's name
   std::size_t imu_outliers = 0;          ///< samples that were left out
+  bool follows_imu = false;              ///< its IMU was trusted to the end
 };
 
 class ScanFrontEnd {

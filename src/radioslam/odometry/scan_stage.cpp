@@ -210,6 +210,7 @@ void measure_robot(const Robot& robot, RobotIndex index, const ScanParams& param
   scans.emplace();
   scans->keyframes = extract_keyframes(track, *tracked->traits);
   scans->odometry = odometry_from_scans(robot, track, params.stage);
+  if (tracked->follows_imu) scans->by_imu = {track.poses.front().stamp, track.poses.back().stamp};
   for (const std::size_t k : track.keyframes) scans->keyframe_stamps.push_back(track.poses[k].stamp);
   close_loops(measured, index, *scans, loops, progress);
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
@@ -37,6 +38,8 @@ struct ScanOdometry {
   ScanKeyframes keyframes;                   ///< with their clouds
   std::vector<Stamp> keyframe_stamps;
   std::vector<SE3> corrected = {};  ///< keyframes.poses with the robot's loop closures; empty without any
+  /// The first and the last scan, where the motion between scans is known by the robot's IMU.
+  std::optional<std::pair<Stamp, Stamp>> by_imu = {};
 };
 
 struct MeasuredScans {

@@ -385,8 +385,8 @@ RunOutput run(const RunInput<Pose>& input, const RunParams& params, const RunOpt
   auto built = timed("graph", build_team<Pose>, run, input.graph, input.scans);
   auto [judged, places] = judge_with_places(run, align_team(run, std::move(built)), input.scans, {},
                                             params.places.rounds, input.places);
-  RunResult result = describe_run(mission, input.measured, radio, judged.team, std::move(judged.overlaps),
-                                  params, options, timed);
+  RunResult result = describe_run(mission, input.measured, input.scans, radio, judged.team,
+                                  std::move(judged.overlaps), params, options, timed);
   count_places(result, places.counts);
   add_known_access_points(result, recorded, known.fixes, params.access_points.known);
   places.closures.insert(places.closures.end(), input.places.begin(), input.places.end());

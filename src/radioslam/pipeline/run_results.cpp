@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "radioslam/inertial/imu_path.hpp"
 #include "radioslam/joint/dense_trajectory.hpp"
 #include "radioslam/joint/links/sight_notes.hpp"
 #include "radioslam/joint/position_fixes/placement.hpp"
@@ -56,13 +57,30 @@ void add_estimate(RunResult& result, const Mission& mission, const JointGraph<Po
     if (!robot.placed) result.unplaced.push_back(robot.id);
 }
 
+/// Per robot its odometry with a row at each sample of the IMU that its scans were tracked with; empty
+/// without.
+std::vector<Trajectory<SE3>> imu_paths(const Mission& measured, const MeasuredScans& scans,
+                                       const InertialParams& params) {
+  std::vector<Trajectory<SE3>> paths(measured.robots.size());
+  for (std::size_t r = 0; r < scans.robots.size(); ++r) {
+    if (!scans.robots[r] || !scans.robots[r]->by_imu) continue;
+    const auto& [first, last] = *scans.robots[r]->by_imu;
+    const Robot& robot = measured.robots[r];
+    const FilteredImu imu = remove_imu_outliers(robot.inertial, params.outliers);
+    paths[r] = with_imu_path(robot.odometry, first, last, imu.samples, params.noise);
+  }
+  return paths;
+}
+
 /// Adds the continuous trajectories, also those of the alternatives.
 template <class Pose>
-void add_dense(RunResult& result, const Mission& measured, const JointGraph<Pose>& joint,
-               const TeamAlignment<Pose>& alignment) {
+void add_dense(RunResult& result, const Mission& measured, const std::vector<Trajectory<SE3>>& paths,
+               const JointGraph<Pose>& joint, const TeamAlignment<Pose>& alignment) {
   const auto add = [&](const JointGraph<Pose>& of, std::vector<RobotResult>& robots) {
-    for (std::size_t r = 0; r < robots.size(); ++r)
+    for (std::size_t r = 0; r < robots.size(); ++r) {
       robots[r].dense = dense_trajectory<Pose>(measured, of, nullptr, r, robots[r]).poses;
+      if (!paths[r].empty()) robots[r].dense = along_path<Pose>(robots[r].dense, paths[r]);
+    }
   };
   add(joint, result.robots);
   for (std::size_t k = 0; k < result.alternatives.size(); ++k) {
@@ -184,9 +202,10 @@ void add_uncertain_stretches(RunResult& result) {
 }  // namespace
 
 template <class Pose>
-RunResult describe_run(const Mission& mission, const Mission& measured, const RadioMeasurements& radio,
-                       const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
-                       const RunParams& params, const RunOptions& options, StageClock& timed) {
+RunResult describe_run(const Mission& mission, const Mission& measured, const MeasuredScans& scans,
+                       const RadioMeasurements& radio, const TeamEstimate<Pose>& estimate,
+                       std::optional<OverlapStage> overlaps, const RunParams& params,
+                       const RunOptions& options, StageClock& timed) {
   std::optional<JointGraph<Pose>> tied;
   if (has_untied_poses(estimate.joint, estimate.alignment)) {
     tied = estimate.joint;
@@ -200,7 +219,8 @@ RunResult describe_run(const Mission& mission, const Mission& measured, const Ra
   result.loop_choice = estimate.judgement.loop_choice;
   if (overlaps) add_overlaps(result, mission, std::move(*overlaps), options.take_candidates != nullptr);
   add_estimate(result, mission, joint, estimate.alignment, params.alignment.mixture, timed);
-  if (!options.overlap_only) add_dense(result, measured, joint, estimate.alignment);
+  if (!options.overlap_only)
+    add_dense(result, measured, imu_paths(measured, scans, params.scans.inertial), joint, estimate.alignment);
   add_rssi_offsets(result.robots, radio.rssi_offsets);
   if (is_laid_out_by_fingerprints(estimate, radio)) {
     widen_by_layout(result.robots, estimate.alignment);
@@ -232,11 +252,13 @@ RunResult describe_run(const Mission& mission, const Mission& measured, const Ra
   return result;
 }
 
-template RunResult describe_run(const Mission&, const Mission&, const RadioMeasurements&,
-                                const TeamEstimate<SE2>&, std::optional<OverlapStage>, const RunParams&,
-                                const RunOptions&, StageClock&);
-template RunResult describe_run(const Mission&, const Mission&, const RadioMeasurements&,
-                                const TeamEstimate<SE3>&, std::optional<OverlapStage>, const RunParams&,
-                                const RunOptions&, StageClock&);
+template RunResult describe_run(const Mission&, const Mission&, const MeasuredScans&,
+                                const RadioMeasurements&, const TeamEstimate<SE2>&,
+                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
+                                StageClock&);
+template RunResult describe_run(const Mission&, const Mission&, const MeasuredScans&,
+                                const RadioMeasurements&, const TeamEstimate<SE3>&,
+                                std::optional<OverlapStage>, const RunParams&, const RunOptions&,
+                                StageClock&);
 
 }  // namespace radioslam

@@ -16,10 +16,12 @@
 namespace radioslam {
 
 /// The results of the final estimate, without timings. `measured`: the mission with all of its odometry, at
-/// whose samples trajectories are dense. `overlaps`: nothing if no pairs were searched for.
+/// whose samples, and those of an IMU that `scans` were tracked with, trajectories are dense. `overlaps`:
+/// nothing if no pairs were searched for.
 template <class Pose>
-RunResult describe_run(const Mission& mission, const Mission& measured, const RadioMeasurements& radio,
-                       const TeamEstimate<Pose>& estimate, std::optional<OverlapStage> overlaps,
-                       const RunParams& params, const RunOptions& options, StageClock& timed);
+RunResult describe_run(const Mission& mission, const Mission& measured, const MeasuredScans& scans,
+                       const RadioMeasurements& radio, const TeamEstimate<Pose>& estimate,
+                       std::optional<OverlapStage> overlaps, const RunParams& params,
+                       const RunOptions& options, StageClock& timed);
 
 }  // namespace radioslam
