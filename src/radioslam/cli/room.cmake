@@ -36,6 +36,7 @@ add_library(radioslam_cli STATIC
   cli/config.cpp
   cli/online_output.cpp
   cli/ending.cpp
+  cli/freed_memory.cpp
   cli/import/import_android.cpp
   cli/import/import_datasets.cpp
   cli/import/import_kinds.cpp

@@ -212,6 +212,7 @@ void measure_robot(const Robot& robot, RobotIndex index, const ScanParams& param
   scans->odometry = odometry_from_scans(robot, track, params.stage);
   if (tracked->follows_imu) scans->by_imu = {track.poses.front().stamp, track.poses.back().stamp};
   for (const std::size_t k : track.keyframes) scans->keyframe_stamps.push_back(track.poses[k].stamp);
+  tracked.reset();  // an hour's poses are as large as all that the search of loops keeps
   close_loops(measured, index, *scans, loops, progress);
 }
 

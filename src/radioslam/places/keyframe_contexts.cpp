@@ -89,6 +89,7 @@ ScanContextIndex keyframe_index(const ScanKeyframes& keyframes, const std::vecto
   ScanContextIndex index(params.index);
   for (ScanContext& context : keyframe_contexts(keyframes, path_m, range_m, submap_m, params.context))
     index.add(std::move(context));
+  index.shrink_to_fit();
   return index;
 }
 

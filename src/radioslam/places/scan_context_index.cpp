@@ -62,6 +62,13 @@ void ScanContextIndex::add(ScanContext context) {
   contexts_.push_back(std::move(context));
 }
 
+void ScanContextIndex::shrink_to_fit() {
+  contexts_.shrink_to_fit();
+  keys_.shrink_to_fit();
+  half_squares_.shrink_to_fit();
+  coarse_.shrink_to_fit();
+}
+
 /// Least |key - query| is the greatest key . query - |key|^2 / 2.
 void ScanContextIndex::keep_nearest_keys(const ScanContext& query, std::size_t count,
                                          std::vector<std::size_t>& indices) const {

@@ -70,6 +70,8 @@ class ScanContextIndex {
 
   /// Gets the index size(). All contexts must have the same rings and sectors.
   void add(ScanContext context);
+  /// No more are added for now: keeps no more memory than it needs.
+  void shrink_to_fit();
 
   using Allowed = std::function<bool(std::size_t index)>;
 

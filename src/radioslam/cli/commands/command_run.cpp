@@ -22,6 +22,7 @@
 #include "radioslam/cli/commands/output_path_check.hpp"
 #include "radioslam/cli/commands/run_documents.hpp"
 #include "radioslam/cli/config.hpp"
+#include "radioslam/cli/freed_memory.hpp"
 #include "radioslam/cli/online_output.hpp"
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/run_parameters.hpp"
@@ -113,6 +114,7 @@ void run_mission(const RunArguments& options) {
   const StreamResult events = stream_result(given.mission, streamed);
   append(notes, event_notes(events));
   RunOutput run = estimate(std::move(input), params, options, streamed.robots);
+  give_back_freed_memory();
   add_maps(run.result, scanned, params, ProgressLine().progress(), output.path());
   const Agreement agreement = evaluate(run.result, given);
   append(notes, finding_notes(warnings, run.result));

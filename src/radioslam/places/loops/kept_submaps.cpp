@@ -5,7 +5,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{32} << 20U;
+constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
 
 }  // namespace
 
