@@ -22,7 +22,8 @@ add_library(radioslam_cli STATIC
   cli/commands/command_run.cpp
   cli/commands/command_similarity.cpp
   cli/commands/command_simulate.cpp
-  cli/commands/command_team.cpp
+  cli/team/command_team.cpp
+  cli/team/network_options.cpp
   cli/commands/csi_channels.cpp
   cli/commands/distributed_optimization.cpp
   cli/commands/evaluated_estimate.cpp
@@ -31,7 +32,7 @@ add_library(radioslam_cli STATIC
   cli/commands/mission_check.cpp
   cli/commands/mission_input.cpp
   cli/commands/output_path_check.cpp
-  cli/commands/run_documents.cpp
+  cli/run_documents.cpp
   cli/recorded_drive.cpp
   cli/config.cpp
   cli/online_output.cpp

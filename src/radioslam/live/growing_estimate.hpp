@@ -49,6 +49,7 @@ class GrowingEstimate {
   /// The next record of a robot's log, when it comes to be known.
   void hear(const std::string& robot, Record record, Stamp now);
   const KnownCounts& known() const { return known_; }
+  const GrowingLogs& logs() const { return logs_; }
   /// By the robots' names, as their logs say them.
   const std::map<std::string, LoggedKeyframes>& keyframes() const { return keyframes_; }
 

@@ -30,37 +30,43 @@ void LoggedKeyframes::add(const AmendmentRecord& amendment) {
 ScansSoFar::ScansSoFar(const ReplayedRobot& robot) {
   if (!robot.tracked || robot.tracked->track.poses.empty() || !robot.tracked->traits) return;
   ScanTrajectory track = robot.tracked->track;
-  for (const std::size_t k : track.keyframes) stamps_.push_back(track.poses[k].stamp);
-  all_ = extract_keyframes(track, *robot.tracked->traits);
+  std::vector<Stamp> stamps;
+  for (const std::size_t k : track.keyframes) stamps.push_back(track.poses[k].stamp);
+  const ScanKeyframes all = extract_keyframes(track, *robot.tracked->traits);
+  scanner_ = {all.kind, all.nominal_inlier_ratio, all.spacing_m};
+  for (std::size_t k = 0; k < stamps.size(); ++k) add(stamps[k], all.clouds[k]);
 }
 
 bool ScansSoFar::has_any(const LoggedKeyframes& known) const {
-  return !stamps_.empty() && !known.said.empty() && stamps_.front() <= known.said.back().stamp;
+  return !clouds_.empty() && !known.said.empty() && clouds_.begin()->first <= known.said.back().stamp;
+}
+
+ScanOdometry ScansSoFar::among(const LoggedKeyframes& known, bool all) const {
+  ScanOdometry scans;
+  ScanKeyframes& of = scans.keyframes;
+  of.nominal_inlier_ratio = scanner_.nominal_inlier_ratio;
+  of.spacing_m = scanner_.spacing_m;
+  of.kind = scanner_.kind;
+  SE3 pose;
+  UncertainPose<SE3> step;
+  for (std::size_t k = 0; k < known.said.size(); ++k) {
+    pose = pose * known.steps[k].pose;
+    step = step * known.steps[k];
+    const auto cloud = clouds_.find(known.said[k].stamp);
+    if (cloud == clouds_.end() && !all) continue;
+    if (!of.poses.empty()) of.step_covariances.push_back(step.covariance);
+    step = {};
+    of.poses.push_back(pose);
+    of.clouds.push_back(cloud == clouds_.end() ? StoredCloud() : cloud->second);
+    scans.keyframe_stamps.push_back(known.said[k].stamp);
+  }
+  return scans;
 }
 
 ScanOdometry ScansSoFar::update(const LoggedKeyframes& known, const ScanLoopSearch& search,
                                 const Progress& progress) {
-  ScanOdometry scans;
-  ScanKeyframes& of = scans.keyframes;
-  of.nominal_inlier_ratio = all_.nominal_inlier_ratio;
-  of.spacing_m = all_.spacing_m;
-  of.kind = all_.kind;
-  SE3 pose;
-  UncertainPose<SE3> step;
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < known.said.size(); ++k) {
-    pose = pose * known.steps[k].pose;
-    step = step * known.steps[k];
-    const Stamp stamp = known.said[k].stamp;
-    while (next < stamps_.size() && stamps_[next] < stamp) ++next;
-    if (next == stamps_.size() || stamps_[next] != stamp) continue;
-    if (!of.poses.empty()) of.step_covariances.push_back(step.covariance);
-    step = {};
-    of.poses.push_back(pose);
-    of.clouds.push_back(all_.clouds[next]);
-    scans.keyframe_stamps.push_back(stamp);
-  }
-  loops_ = close_scan_loops(of, search, progress, &loops_);
+  ScanOdometry scans = among(known);
+  loops_ = close_scan_loops(scans.keyframes, search, progress, &loops_);
   if (!loops_.loops.empty()) scans.corrected = loops_.poses;
   return scans;
 }

@@ -24,21 +24,38 @@ struct LoggedKeyframes {
   void add(const AmendmentRecord& amendment);
 };
 
+/// What a robot's scanner is like.
+struct ScannerFacts {
+  ScannerKind kind = ScannerKind::kSpatial;
+  double nominal_inlier_ratio = 1, spacing_m = 0.25;
+};
+
 class ScansSoFar {
  public:
+  explicit ScansSoFar(const ScannerFacts& scanner = {}) : scanner_(scanner) {}
   /// Of a robot that has been replayed; without scans, it has none.
   explicit ScansSoFar(const ReplayedRobot& robot);
 
+  void set_scanner(const ScannerFacts& scanner) { scanner_ = scanner; }
+  const ScannerFacts& scanner() const { return scanner_; }
+  /// The scan of a keyframe, in any order.
+  void add(Stamp keyframe, StoredCloud cloud) { clouds_[keyframe] = std::move(cloud); }
+  const std::map<Stamp, StoredCloud>& clouds() const { return clouds_; }
+
   /// Whether there are scans among these keyframes.
   bool has_any(const LoggedKeyframes& known) const;
-  /// The scans among these keyframes; searches loops of those that came since the last call.
+  /// The scans among these keyframes; with `all`, every keyframe, those without a scan empty.
+  ScanOdometry among(const LoggedKeyframes& known, bool all = false) const;
+  /// The same; searches loops of those that came since the last call.
   ScanOdometry update(const LoggedKeyframes& known, const ScanLoopSearch& search, const Progress& progress);
   /// As found by the last update.
   const ScanLoops& loops() const { return loops_; }
+  /// What an update of a copy found.
+  void set_loops(ScanLoops loops) { loops_ = std::move(loops); }
 
  private:
-  std::vector<Stamp> stamps_;
-  ScanKeyframes all_;  ///< their poses are those of hindsight, and not used
+  ScannerFacts scanner_;
+  std::map<Stamp, StoredCloud> clouds_;
   ScanLoops loops_;
 };
 

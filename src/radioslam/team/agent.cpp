@@ -17,7 +17,8 @@ Agent::Agent(std::string name, int dimension, const RunParams& run, const AgentP
       dimension_(dimension),
       run_(run),
       params_(params),
-      logs_(name_, memory.life, memory.logs) {
+      logs_(name_, memory.life, memory.logs),
+      scans_(name_) {
   restart_estimate();
 }
 
@@ -82,8 +83,13 @@ void Agent::take(const std::string& peer, const Want& want, Stamp now) {
   }
 }
 
-void Agent::take(const std::string&, const CloudWant&, Stamp) {}
-void Agent::take(const std::string&, const CloudMessage&, Stamp) {}
+void Agent::take(const std::string& peer, const CloudWant& want, Stamp) {
+  peers_.at(peer).clouds.insert(want.keyframes.begin(), want.keyframes.end());
+}
+
+void Agent::take(const std::string& peer, const CloudMessage& cloud, Stamp now) {
+  if (!scans_.take(peer, cloud)) refuse(peer, "clouds that were not asked for, or are damaged", 1, now);
+}
 
 void Agent::take(const std::string&, const SolutionMessage& solution, Stamp) {
   if (params_.solves || (taken_ && taken_->records > solution.records)) return;
@@ -93,6 +99,10 @@ void Agent::take(const std::string&, const SolutionMessage& solution, Stamp) {
 void Agent::done(const AnyGrownEstimate& result, Stamp now) {
   for (TeamEvent& event : estimate_->take(result, now)) events_.push_back(std::move(event));
   has_solution_ = true;
+}
+
+void Agent::done(const ScanResult& result) {
+  for (std::string& record : scans_.done(result, estimate_->keyframes().at(name_))) say(std::move(record));
 }
 
 PublishedFrame Agent::frame_of(const std::string& robot) const {
@@ -105,13 +115,7 @@ AgentStep Agent::step(Stamp now) {
   AgentStep step;
   tell_estimate();
   send_digest(now, step);
-  if (!asked_ || seconds_between(*asked_, now) >= kAsk_s) {
-    asked_ = now;
-    for (auto& [peer, want] :
-         asking_.wants(now, name_, logs_.extents(), peers_,
-                       [&](const auto&robot, std::uint64_t end) { return logs_.missing(robot, end); }))
-      wants_[peer] = std::move(want);
-  }
+  if (!asked_ || seconds_between(*asked_, now) >= kAsk_s) ask(now);
   const bool pushes = !own_sent_ || seconds_between(*own_sent_, now) >= kOwn_s;
   for (auto& [name, peer] : peers_) {
     peer.budget.refill(now);
@@ -119,9 +123,24 @@ AgentStep Agent::step(Stamp now) {
   }
   if (pushes) own_sent_ = now;
   if (std::exchange(has_solution_, false)) send_solution(now, step);
-  if (params_.solves) step.job = estimate_->job(now);
+  if (params_.solves) {
+    step.job = estimate_->job(now);
+    step.scan_job = scans_.job(*estimate_, now);
+  }
   step.events = std::exchange(events_, {});
   return step;
+}
+
+void Agent::ask(Stamp now) {
+  asked_ = now;
+  for (auto& [peer, want] :
+       asking_.wants(now, name_, logs_.extents(), peers_,
+                     [&](const std::string&robot, std::uint64_t end) { return logs_.missing(robot, end); }))
+    wants_[peer] = std::move(want);
+  std::set<std::string> heard;
+  for (const auto& [name, peer] : peers_)
+    if (peer.is_heard(now)) heard.insert(name);
+  for (auto& [peer, want] : scans_.wants(*estimate_, heard, now)) cloud_wants_[peer] = std::move(want);
 }
 
 void Agent::tell_estimate() {
@@ -173,6 +192,9 @@ void Agent::send_solution(Stamp now, AgentStep& step) {
 void Agent::send_to(const std::string& name, Peer& peer, bool pushes, AgentStep& step) {
   if (const auto want = wants_.find(name); want != wants_.end() && send(name, peer, want->second, step))
     wants_.erase(want);
+  if (const auto want = cloud_wants_.find(name);
+      want != cloud_wants_.end() && send(name, peer, want->second, step))
+    cloud_wants_.erase(want);
   RecordsMessage message;
   const auto add = [&](const std::string& robot, std::uint64_t& first, std::uint64_t end) {
     return add_records(name, peer, robot, first, end, message, step);
@@ -190,6 +212,15 @@ void Agent::send_to(const std::string& name, Peer& peer, bool pushes, AgentStep&
     if (goes_on) peer.wanted.erase(wanted);
   }
   if (!message.chunks.empty()) send(name, peer, message, step);
+  if (goes_on) send_clouds(name, peer, step);
+}
+
+void Agent::send_clouds(const std::string& name, Peer& peer, AgentStep& step) {
+  while (!peer.clouds.empty()) {
+    const auto cloud = scans_.cloud(*peer.clouds.begin());
+    if (cloud && !send(name, peer, *cloud, step)) return;
+    peer.clouds.erase(peer.clouds.begin());
+  }
 }
 
 bool Agent::send(const std::string& to, Peer& peer, const AgentMessage& message, AgentStep& step) {

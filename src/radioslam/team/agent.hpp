@@ -21,6 +21,7 @@
 
 #include "radioslam/records/journal_change.hpp"
 #include "radioslam/team/agent_estimate.hpp"
+#include "radioslam/team/agent_scans.hpp"
 #include "radioslam/team/known_logs.hpp"
 #include "radioslam/team/messages.hpp"
 #include "radioslam/team/peers.hpp"
@@ -49,6 +50,7 @@ struct AgentStep {
   std::vector<SentMessage> messages;
   std::vector<TeamEvent> events;
   std::optional<EstimateJob> job;
+  std::optional<ScanJob> scan_job;
 };
 
 class Agent {
@@ -59,9 +61,13 @@ class Agent {
 
   /// The front end's next record, encoded.
   void say(std::string record);
+  /// Its scanner, and the scans of its keyframes.
+  void set_scanner(const ScannerFacts& scanner) { scans_.set_scanner(scanner); }
+  void add_cloud(Stamp keyframe, StoredCloud cloud) { scans_.add(keyframe, std::move(cloud)); }
   /// Any bytes, from a peer by the name under which the network knows it.
   void hear(const std::string& peer, std::string_view bytes, Stamp now);
   void done(const AnyGrownEstimate& result, Stamp now);
+  void done(const ScanResult& result);
 
   /// What is to be kept before it is sent, and then that it is kept.
   JournalChange change() const { return logs_.change(); }
@@ -73,6 +79,8 @@ class Agent {
   const KnownLogs& logs() const { return logs_; }
   const std::map<std::string, Peer>& peers() const { return peers_; }
   const AgentEstimate& estimate() const { return *estimate_; }
+  /// Whether it looks for closures among the scans that it has.
+  bool is_busy() const { return scans_.is_busy(); }
   /// Where the robots are: by its own estimate, or by the solution that it took.
   PublishedFrame frame_of(const std::string& robot) const;
 
@@ -85,8 +93,10 @@ class Agent {
   void take(const std::string& peer, const SolutionMessage& solution, Stamp now);
 
   void refuse(const std::string& peer, const std::string& what, std::size_t times, Stamp now);
+  void ask(Stamp now);
   void tell_estimate();
   void restart_estimate();
+  void send_clouds(const std::string& name, Peer& peer, AgentStep& step);
   void send_digest(Stamp now, AgentStep& step);
   void send_solution(Stamp now, AgentStep& step);
   void send_to(const std::string& name, Peer& peer, bool pushes, AgentStep& step);
@@ -101,7 +111,9 @@ class Agent {
   KnownLogs logs_;
   std::map<std::string, Peer> peers_;
   Asking asking_;
+  AgentScans scans_;
   std::map<std::string, Want> wants_;  ///< by whom they are asked of, until they are sent
+  std::map<std::string, CloudWant> cloud_wants_;
   std::optional<Stamp> digest_sent_, own_sent_, asked_;
   std::unique_ptr<AgentEstimate> estimate_;
   std::map<std::string, std::uint64_t> estimated_;  ///< records that the estimate was told, by robot

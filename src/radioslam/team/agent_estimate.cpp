@@ -4,6 +4,7 @@
 #include <deque>
 #include <utility>
 
+#include "radioslam/geometry/linear_algebra.hpp"
 #include "radioslam/records/record_codec.hpp"
 
 namespace radioslam {
@@ -16,6 +17,79 @@ std::string digest_of(const std::string& text) {
   char name[17];
   std::snprintf(name, sizeof(name), "%016llx", static_cast<unsigned long long>(hash));
   return name;
+}
+
+template <class Pose>
+const RobotVariables* variables_of(const JointGraph<Pose>& joint, const std::string& robot) {
+  for (const RobotVariables& of : joint.robots)
+    if (of.id == robot) return &of;
+  return nullptr;
+}
+
+/// What a job on scans works with.
+template <class Pose>
+struct ScanWork {
+  const std::string& self;
+  const ScansSoFar& own;
+  const std::map<std::string, ScansSoFar>& others;
+  const std::shared_ptr<const RecognisedPlaces>& tried;
+  const GrowingLogs& logs;
+  const std::shared_ptr<const TeamSolution<Pose>>& last;
+  const std::map<std::string, LoggedKeyframes>& keyframes;
+};
+
+/// Closures within the robot, and those between robots that an estimate with these scans verifies.
+template <class Pose>
+ScanResult compare_scans(const ScanWork<Pose>& work, const RunParams& params) {
+  ScanResult result{work.own, work.tried, {}};
+  const LoggedMission logged = work.logs.mission();
+  const auto& robots = logged.mission.robots;
+  MeasuredScans measured;
+  std::size_t self = robots.size();
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    auto& of = measured.robots.emplace_back();
+    const LoggedKeyframes& known = work.keyframes.at(robots[r].id);
+    if (robots[r].id == work.self) {
+      self = r;
+      if (!result.own.has_any(known)) return result;
+      of = result.own.update(
+          known, loop_search(params.scans, params.places.descriptors, logged.mission.dimension), {});
+      for (const ScanLoop& loop : result.own.loops().loops)
+        measured.closures.push_back(
+            {RobotIndex(r), of->keyframe_stamps[loop.i], of->keyframe_stamps[loop.j], loop});
+    } else if (const auto scans = work.others.find(robots[r].id); scans != work.others.end()) {
+      of = scans->second.among(known, true);
+    }
+  }
+  if (self == robots.size()) return result;
+  std::vector<VerifiedClosure> closures = closures_of_scans(measured.closures);
+  if (has_comparable_scans(measured)) {
+    TeamSolution<Pose> before = *work.last;
+    if (work.tried) before.places = work.tried;
+    const auto solution = estimate<Pose>(TeamView{logged, measured}, &before, Effort::kJudge, params,
+                                         {.lists_overlaps = false});
+    result.tried = solution.places;
+    closures.insert(closures.end(), solution.places->closures.begin(), solution.places->closures.end());
+  }
+  for (const auto& [closure, judgement] : closures) {
+    const bool is_first = closure.robot_i == RobotIndex(self);
+    if (judgement.status != ClosureStatus::kAccepted || (!is_first && closure.robot_j != RobotIndex(self)))
+      continue;
+    ClosureRecord said{{},
+                       robots[(is_first ? closure.robot_j : closure.robot_i).index()].id,
+                       is_first ? closure.stamp_j : closure.stamp_i,
+                       closure.T_i_j,
+                       inverse<SE3::Jacobian>(closure.information),
+                       judgement.statistic,
+                       judgement.doubt};
+    if (!is_first) {
+      const SE3::Jacobian A = said.T_i_j.adjoint();
+      said.covariance = A * said.covariance * A.transpose();
+      said.T_i_j = said.T_i_j.inverse();
+    }
+    result.closures.emplace_back(is_first ? closure.stamp_i : closure.stamp_j, std::move(said));
+  }
+  return result;
 }
 
 template <class Pose>
@@ -50,6 +124,40 @@ class AgentEstimateOf : public AgentEstimate {
     if (!is_new) return {};
     last_key_ = made_key_;
     return frames_.move_to(known_.last()->team, now, known_.keyframes());
+  }
+
+  std::optional<ScanJob> scan_job(const std::string& self, const ScansSoFar& own,
+                                  const std::map<std::string, ScansSoFar>& others,
+                                  std::shared_ptr<const RecognisedPlaces> tried) const override {
+    if (!known_.last()) return std::nullopt;
+    return ScanJob{[self, own, others, tried = std::move(tried), logs = known_.logs(), last = known_.last(),
+                    keyframes = known_.keyframes(), &params = params_] {
+      return compare_scans<Pose>({self, own, others, tried, logs, last, keyframes}, params);
+    }};
+  }
+
+  std::vector<Stamp> near(const std::string& self, const std::string& other, double range_m,
+                          double stride_m) const override {
+    std::vector<Stamp> near;
+    if (!known_.last() || frames_.of(self).frame != frames_.of(other).frame) return near;
+    const JointGraph<Pose>& joint = known_.last()->team.joint;
+    const RobotVariables *own = variables_of(joint, self), *of = variables_of(joint, other);
+    if (!own || !of) return near;
+    const auto place = [&](const RobotVariables& robot, std::size_t k) -> Eigen::Vector3d {
+      return as_se3(joint.team.graph.poses[robot.poses[k].index()], 0).translation();
+    };
+    std::optional<Eigen::Vector3d> last;
+    for (std::size_t k = 0; k < of->poses.size(); ++k) {
+      const Eigen::Vector3d here = place(*of, k);
+      if (last && (here - *last).norm() < stride_m) continue;
+      bool is_near = false;
+      for (std::size_t n = 0; n < own->poses.size() && !is_near; ++n)
+        is_near = (place(*own, n) - here).norm() < range_m;
+      if (!is_near) continue;
+      last = here;
+      near.push_back(of->stamps[k]);
+    }
+    return near;
   }
 
   const PublishedFrames& frames() const override { return frames_; }

@@ -28,6 +28,17 @@ struct EstimateJob {
   std::function<AnyGrownEstimate()> run;
 };
 
+/// Closures that scans give: within this robot, and between it and later ones in the team's order.
+struct ScanResult {
+  ScansSoFar own;                                         ///< with what was tried
+  std::shared_ptr<const RecognisedPlaces> tried;          ///< between robots
+  std::vector<std::pair<Stamp, ClosureRecord>> closures;  ///< without the pose from which they are measured
+};
+/// As an EstimateJob, but of this robot alone.
+struct ScanJob {
+  std::function<ScanResult()> run;
+};
+
 class AgentEstimate {
  public:
   static constexpr double kCut_s = 3;
@@ -40,6 +51,16 @@ class AgentEstimate {
   virtual std::optional<EstimateJob> job(Stamp now) = 0;
   /// What a job gave. Returns what moved.
   virtual std::vector<TeamEvent> take(const AnyGrownEstimate& result, Stamp now) = 0;
+
+  /// Work on scans: `own` of robot `self`, and those of others that it was sent. `tried`: what the last job
+  /// gave, or null. Nothing before the first estimate.
+  virtual std::optional<ScanJob> scan_job(const std::string& self, const ScansSoFar& own,
+                                          const std::map<std::string, ScansSoFar>& others,
+                                          std::shared_ptr<const RecognisedPlaces> tried) const = 0;
+  /// Keyframes of another robot from which, as estimated, something within `range_m` of this robot's way can
+  /// be seen, `stride_m` apart; none where they are not in one frame.
+  virtual std::vector<Stamp> near(const std::string& self, const std::string& other, double range_m,
+                                  double stride_m) const = 0;
 
   virtual const PublishedFrames& frames() const = 0;
   /// As their logs say them, up to the last job.

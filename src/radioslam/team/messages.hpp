@@ -20,7 +20,7 @@
 
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/live/published_frames.hpp"
-#include "radioslam/places/loops/scan_loop.hpp"
+#include "radioslam/live/scans_so_far.hpp"
 
 namespace radioslam {
 
@@ -59,11 +59,6 @@ struct CloudWant {
   std::vector<Stamp> keyframes;  ///< of the receiver
 };
 
-/// What a robot's scanner is like.
-struct ScannerFacts {
-  ScannerKind kind = ScannerKind::kSpatial;
-  double nominal_inlier_ratio = 1, spacing_m = 0.25;
-};
 struct CloudMessage {
   Stamp keyframe;  ///< of the sender
   ScannerFacts scanner;

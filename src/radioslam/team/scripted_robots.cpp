@@ -10,9 +10,13 @@ namespace radioslam {
 namespace {
 
 ScriptedRun scripted(Stamp begin, const ReplayedRobot& replayed) {
-  ScriptedRun run{begin, {}, {}};
+  ScriptedRun run;
+  run.begin = begin;
   for (std::size_t k = 0; k < replayed.known.size(); ++k)
     run.records.emplace_back(replayed.known[k], replayed.log.records[k]);
+  const ScansSoFar scans(replayed);
+  run.scanner = scans.scanner();
+  run.clouds.assign(scans.clouds().begin(), scans.clouds().end());
   return run;
 }
 

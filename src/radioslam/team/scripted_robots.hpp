@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "radioslam/base/stamp.hpp"
+#include "radioslam/live/scans_so_far.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/pipeline/params.hpp"
 
@@ -17,8 +18,10 @@ namespace radioslam {
 struct ScriptedRun {
   Stamp begin;
   std::optional<Stamp> killed;
-  std::vector<std::pair<Stamp, std::string>> records;  ///< encoded, when they are said
-  bool odometry_goes_on = false;                       ///< of the run before
+  std::vector<std::pair<Stamp, std::string>> records;      ///< encoded, when they are said
+  std::vector<std::pair<Stamp, StoredCloud>> clouds = {};  ///< of its keyframes
+  ScannerFacts scanner = {};
+  bool odometry_goes_on = false;  ///< of the run before
 };
 struct ScriptedRobot {
   std::string name;

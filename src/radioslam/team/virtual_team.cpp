@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <deque>
 
-#include "radioslam/base/random.hpp"
 #include "radioslam/records/resumed_log.hpp"
 
 namespace radioslam {
@@ -11,6 +10,7 @@ namespace {
 
 constexpr double kTick_s = 0.1, kCommit_s = 1, kObserve_s = 5, kSettle_s = 120;
 constexpr double kExtend_s = 0.1, kJudge_s = 1;  // virtual time of an estimate
+constexpr double kRegistered_s = 0.5;            // after which a keyframe's cloud is there
 constexpr std::size_t kShared = 8;               // estimates that are kept for others
 
 class MemoryStore : public AgentStore {
@@ -41,24 +41,25 @@ struct Host {
   std::unique_ptr<AgentStore> store;
   std::unique_ptr<Agent> agent;
   std::optional<ResumedLog> resumed;
-  std::size_t run = 0, next = 0;  ///< of the script; record of the run
+  std::size_t run = 0, next = 0, next_cloud = 0;  ///< of the script; record and cloud of the run
   std::optional<Stamp> committed, observed;
   std::deque<std::pair<Stamp, AnyGrownEstimate>> done;
+  std::optional<std::pair<Stamp, ScanResult>> scans_done;
 
   const ScriptedRun* current() const { return run < script->runs.size() ? &script->runs[run] : nullptr; }
 };
 
-struct Flight {
-  Stamp arrives;
-  std::size_t from = 0, to = 0;
-  std::string bytes;
-};
+std::vector<std::string> names_of(const std::vector<ScriptedRobot>& robots) {
+  std::vector<std::string> names;
+  for (const ScriptedRobot& robot : robots) names.push_back(robot.name);
+  return names;
+}
 
 class VirtualTeam {
  public:
   VirtualTeam(const std::vector<ScriptedRobot>& robots, const VirtualTeamSetup& setup,
               const Progress& progress)
-      : setup_(setup), progress_(progress), random_(setup.network.seed) {
+      : setup_(setup), progress_(progress), network_(names_of(robots), setup.network) {
     for (const ScriptedRobot& robot : robots) {
       Host& host = hosts_.emplace_back();
       host.script = &robot;
@@ -77,13 +78,16 @@ class VirtualTeam {
     for (std::int64_t tick = 0;; ++tick) {
       const Stamp now{begin_->ns + tick * Stamp::from_seconds(kTick_s).ns};
       for (Host& host : hosts_) live(host, now);
-      deliver(now);
+      network_.deliver(now, [&](std::size_t to, const std::string& from, std::string_view bytes) {
+        if (hosts_[to].agent) hosts_[to].agent->hear(from, bytes, now);
+      });
       for (std::size_t k = 0; k < hosts_.size(); ++k) act(k, now);
       report_progress(progress_, "team", seconds_between(*begin_, now) / seconds_between(*begin_, end));
       run_.end = now;
       if (now > end || (now > last_ && tick % 10 == 0 && is_settled())) break;
     }
     for (Host& host : hosts_) conclude(host);
+    run_.traffic = network_.traffic();
     return std::move(run_);
   }
 
@@ -94,6 +98,7 @@ class VirtualTeam {
     if (run && host.agent && run->killed && *run->killed <= now) {
       host.agent.reset();
       host.done.clear();
+      host.scans_done.reset();
       ++host.run;
       run = host.current();
       run_.events.push_back({host.script->name, {now, "is killed"}});
@@ -108,6 +113,10 @@ class VirtualTeam {
       else if (auto continued = host.resumed->continued(record))
         host.agent->say(*std::move(continued));
     }
+    const Stamp registered{now.ns - Stamp::from_seconds(kRegistered_s).ns};
+    for (; host.next_cloud < run->clouds.size() && run->clouds[host.next_cloud].first <= registered;
+         ++host.next_cloud)
+      host.agent->add_cloud(run->clouds[host.next_cloud].first, run->clouds[host.next_cloud].second);
   }
 
   void start(Host& host, Stamp now) {
@@ -115,21 +124,13 @@ class VirtualTeam {
     AgentParams params = setup_.agent;
     params.solves = static_cast<std::size_t>(&host - hosts_.data()) < setup_.solvers;
     host.agent = std::make_unique<Agent>(host.script->name, setup_.dimension, setup_.run, params, memory);
-    host.next = 0;
+    host.next = host.next_cloud = 0;
+    host.agent->set_scanner(host.script->runs[host.run].scanner);
     host.resumed.reset();
     if (host.run == 0) return;
     run_.events.push_back({host.script->name, {now, "is started again"}});
     host.resumed.emplace(host.agent->logs().log(host.script->name),
                          host.script->runs[host.run].odometry_goes_on);
-  }
-
-  void deliver(Stamp now) {
-    while (!flights_.empty() && flights_.front().arrives <= now) {
-      const Flight flight = std::move(flights_.front());
-      flights_.pop_front();
-      if (hosts_[flight.to].agent)
-        hosts_[flight.to].agent->hear(hosts_[flight.from].script->name, flight.bytes, now);
-    }
   }
 
   void act(std::size_t k, Stamp now) {
@@ -140,42 +141,21 @@ class VirtualTeam {
       host.done.pop_front();
       observe(host, now);
     }
+    if (host.scans_done && host.scans_done->first <= now) {
+      host.agent->done(host.scans_done->second);
+      host.scans_done.reset();
+    }
     if (!host.committed || seconds_between(*host.committed, now) >= kCommit_s) {
       if (const JournalChange change = host.agent->change(); !change.empty()) host.store->commit(change);
       host.agent->note_kept();
       host.committed = now;
     }
     AgentStep step = host.agent->step(now);
-    for (const SentMessage& message : step.messages) send(k, message, now);
+    for (const SentMessage& message : step.messages) network_.send(k, message, now);
     for (TeamEvent& event : step.events) run_.events.push_back({host.script->name, std::move(event)});
     if (step.job) make(host, *step.job, now);
-  }
-
-  void send(std::size_t from, const SentMessage& message, Stamp now) {
-    for (std::size_t to = 0; to < hosts_.size(); ++to) {
-      if (to == from || (!message.to.empty() && message.to != hosts_[to].script->name)) continue;
-      LinkTraffic& traffic = run_.traffic[{hosts_[from].script->name, hosts_[to].script->name, message.kind}];
-      ++traffic.messages;
-      traffic.bytes += message.bytes.size();
-      if (!reaches(from, to, now) || random_.uniform() < setup_.network.loss)
-        ++traffic.lost;
-      else
-        flights_.push_back(
-            {Stamp{now.ns + Stamp::from_seconds(setup_.network.delay_s).ns}, from, to, message.bytes});
-    }
-  }
-
-  bool reaches(std::size_t from, std::size_t to, Stamp now) const {
-    const auto& partition = setup_.network.partition;
-    const auto& late = setup_.network.late;
-    const auto is_off = [&](std::size_t k) {
-      const auto on = late.find(hosts_[k].script->name);
-      return on != late.end() && now < on->second;
-    };
-    if (is_off(from) || is_off(to) || !hosts_[to].agent) return false;
-    const std::size_t half = (hosts_.size() + 1) / 2;
-    const bool is_divided = partition && partition->first <= now && now < partition->second;
-    return !is_divided || (from < half) == (to < half);
+    if (step.scan_job)
+      host.scans_done.emplace(Stamp{now.ns + Stamp::from_seconds(kJudge_s).ns}, step.scan_job->run());
   }
 
   void make(Host& host, const EstimateJob& job, Stamp now) {
@@ -216,6 +196,7 @@ class VirtualTeam {
         continue;
       }
       if (!first) first = host.agent.get();
+      if (host.agent->is_busy()) return false;
       if (host.agent->logs().extents() != first->logs().extents()) return false;
     }
     return true;
@@ -234,9 +215,8 @@ class VirtualTeam {
 
   const VirtualTeamSetup& setup_;
   const Progress& progress_;
-  Rng random_;
+  VirtualNetwork network_;
   std::vector<Host> hosts_;
-  std::deque<Flight> flights_;
   std::deque<std::pair<std::string, AnyGrownEstimate>> shared_;
   std::optional<Stamp> begin_;
   Stamp last_;

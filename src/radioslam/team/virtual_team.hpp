@@ -1,8 +1,8 @@
-// A team of agents in one process and in virtual time, over a network that loses, delays and divides: every
-// fault of a real one, the same for the same seed.
+// A team of agents in one process and in virtual time, over a network with faults: the same for the same
+// seed.
 //
-// Everybody hears everybody. A robot that is killed keeps what its store has and loses all else; it is
-// started again kRestart_s later, with a new front end. One that is late has its radio off until then.
+// A robot that is killed keeps what its store has and loses all else; it is
+// started again kRestart_s later, with a new front end.
 #pragma once
 
 #include <cstddef>
@@ -19,16 +19,9 @@
 #include "radioslam/base/progress.hpp"
 #include "radioslam/team/agent.hpp"
 #include "radioslam/team/scripted_robots.hpp"
+#include "radioslam/team/virtual_network.hpp"
 
 namespace radioslam {
-
-struct NetworkFaults {
-  double loss = 0;  ///< probability that a message does not arrive, each way
-  double delay_s = 0.05;
-  std::optional<std::pair<Stamp, Stamp>> partition;  ///< the first half of the robots hears not the second
-  std::map<std::string, Stamp> late;                 ///< by robot: when its radio is switched on
-  std::uint64_t seed = 1;
-};
 
 /// What outlives an agent.
 class AgentStore {
@@ -38,10 +31,6 @@ class AgentStore {
   virtual void commit(const JournalChange& change) = 0;
 };
 std::unique_ptr<AgentStore> store_in_memory(const std::string& robot, std::uint32_t life);
-
-struct LinkTraffic {
-  std::size_t messages = 0, bytes = 0, lost = 0;
-};
 
 /// An agent's state at a time.
 struct KnownThen {
@@ -53,8 +42,8 @@ struct KnownThen {
 };
 
 struct TeamRun {
-  std::map<std::tuple<std::string, std::string, std::size_t>, LinkTraffic> traffic;  ///< from, to, kind
-  std::vector<KnownThen> known;                                                      ///< in time order
+  TeamTraffic traffic;
+  std::vector<KnownThen> known;                           ///< in time order
   std::vector<std::pair<std::string, TeamEvent>> events;  ///< by agent, in time order
   std::map<std::string, std::vector<RobotLog>> logs;  ///< by agent: what it knows in the end, without gaps
   std::map<std::string, std::map<std::string, LogExtent>> extents;  ///< of these logs

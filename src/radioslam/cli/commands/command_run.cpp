@@ -20,7 +20,7 @@
 #include "radioslam/cli/commands/mission_check.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
-#include "radioslam/cli/commands/run_documents.hpp"
+#include "radioslam/cli/run_documents.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/freed_memory.hpp"
 #include "radioslam/cli/online_output.hpp"

@@ -14,7 +14,7 @@
 namespace radioslam {
 
 struct CloudStoreParams {
-  int memory_mib = 32;
+  int memory_mib = 16;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -32,7 +32,8 @@ class StoredCloud {
   bool empty() const { return points_ == 0; }
   std::size_t points() const { return points_; }
   double median_range_m() const { return median_range_m_; }
-  /// The quantised cloud, which is there as long as the pointer is held. Throws InputError where its temporary file cannot be read.
+  /// The quantised cloud, which is there as long as the pointer is held. Throws InputError where its
+  /// temporary file cannot be read.
   std::shared_ptr<const ScanPyramid> read() const;
 
  private:

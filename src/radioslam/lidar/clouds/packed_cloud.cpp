@@ -159,9 +159,9 @@ class Planes {
       result.append(frame, 0, size);
     }
   }
-  void decompress(std::string_view frames) {
-    const std::size_t size = ZSTD_decompress(bytes_.data(), bytes_.size(), frames.data(), frames.size());
-    RADIOSLAM_CHECK(size == bytes_.size(), "what was packed is unpacked whole");
+  /// Whether the frames are those of all points.
+  bool decompress(std::string_view frames) {
+    return ZSTD_decompress(bytes_.data(), bytes_.size(), frames.data(), frames.size()) == bytes_.size();
   }
 
  private:
@@ -218,11 +218,19 @@ std::string packed(const ScanPyramid& cloud) {
   return bytes;
 }
 
-ScanPyramid unpacked(std::string_view bytes) {
+namespace {
+
+std::optional<ScanPyramid> cloud_of(std::string_view bytes, std::size_t most_points) {
   Header header{};
+  if (bytes.size() < sizeof(Header)) return std::nullopt;
   std::memcpy(&header, bytes.data(), sizeof(Header));
+  const auto is_ratio = [](double ratio) { return ratio >= 0 && ratio <= 1; };
+  if (header.points > most_points || !(header.step_m >= kStep_m && header.step_m <= 1) ||
+      !(header.median_range_m >= 0 && header.median_range_m < 1e6) ||
+      !is_ratio(static_cast<double>(header.source_ratio)) || !is_ratio(static_cast<double>(header.few_ratio)))
+    return std::nullopt;
   Planes planes(header.points);
-  planes.decompress(bytes.substr(sizeof(Header)));
+  if (!planes.decompress(bytes.substr(sizeof(Header)))) return std::nullopt;
   ScanPyramid cloud;
   cloud.median_range_m = header.median_range_m;
   cloud.source.effective_sample_ratio = header.source_ratio;
@@ -246,6 +254,19 @@ ScanPyramid unpacked(std::string_view bytes) {
     if (marks & kIsFew) cloud.few.surfels.push_back(surfel);
   }
   return cloud;
+}
+
+}  // namespace
+
+ScanPyramid unpacked(std::string_view bytes) {
+  auto cloud = cloud_of(bytes, std::numeric_limits<std::uint32_t>::max());
+  RADIOSLAM_CHECK(cloud.has_value(), "what was packed is unpacked whole");
+  return *std::move(cloud);
+}
+
+std::optional<ScanPyramid> unpacked_from_elsewhere(std::string_view bytes) {
+  constexpr std::size_t kMostPoints = 65536;
+  return cloud_of(bytes, kMostPoints);
 }
 
 }  // namespace radioslam

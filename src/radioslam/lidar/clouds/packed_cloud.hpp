@@ -11,6 +11,7 @@
 // Positions are kept as differences from one point to the next; numbers of one kind are compressed together.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,7 @@ std::string packed(const ScanPyramid& cloud);
 
 /// The quantised cloud, of bytes that packed() gave.
 ScanPyramid unpacked(std::string_view bytes);
+/// The same of any bytes; nothing where they are no cloud, or one of more than 65,536 points.
+std::optional<ScanPyramid> unpacked_from_elsewhere(std::string_view bytes);
 
 }  // namespace radioslam

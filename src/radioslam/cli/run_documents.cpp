@@ -1,4 +1,4 @@
-#include "radioslam/cli/commands/run_documents.hpp"
+#include "radioslam/cli/run_documents.hpp"
 
 #include <cmath>
 #include <iomanip>

@@ -1,0 +1,26 @@
+// The faults of a team's network and programs, as the command line states them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "radioslam/mission/mission.hpp"
+#include "radioslam/team/virtual_network.hpp"
+
+namespace radioslam::cli {
+
+struct NetworkOptions {
+  std::string partition;           ///< T0:T1
+  std::vector<std::string> kills;  ///< ROBOT@T
+  std::vector<std::string> late;   ///< ROBOT:T
+  double loss = 0, delay_s = 0.05;
+  std::uint64_t seed = 1;
+};
+
+/// Times are seconds from `begin` on. Throws InputError naming the option.
+NetworkFaults faults_of(const NetworkOptions& options, const Mission& mission, Stamp begin);
+/// When which robots' programs are killed.
+std::map<std::string, Stamp> kills_of(const NetworkOptions& options, const Mission& mission, Stamp begin);
+
+}  // namespace radioslam::cli
