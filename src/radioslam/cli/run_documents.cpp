@@ -29,7 +29,7 @@ Agreement evaluate(const RunResult& result, const MissionInput& given) {
 }
 
 RunDocuments documents_of(const RunOutput& run, const MissionInput& given, const Agreement& agreement,
-                          const StreamResult* stream) {
+                          const StreamResult* stream, const AgentsResult* agents) {
   RunDocuments documents;
   if (agreement.metrics) {
     documents.metrics = metrics_json(*agreement.metrics);
@@ -39,7 +39,7 @@ RunDocuments documents_of(const RunOutput& run, const MissionInput& given, const
       [&](const auto& graph) { return format_g2o(with_ids(graph, given.pose_ids, given.point_ids)); },
       run.graph);
   documents.report_html = render_report(run.result, given.truth.empty() ? nullptr : &given.truth,
-                                        agreement.metrics, agreement.closures, {}, stream);
+                                        agreement.metrics, agreement.closures, {}, stream, agents);
   return documents;
 }
 

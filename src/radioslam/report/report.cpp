@@ -251,6 +251,22 @@ PageData stream_data(const StreamResult& stream, Stamp start) {
   return {{"estimates", std::move(estimates)}, {"events", std::move(events)}};
 }
 
+/// {"known": [{"t", "agent", "share", "error_m"}], "sent": [{"kind", "messages", "bytes", "lost"}], "events":
+/// [{"t", "what"}]}
+PageData agents_data(const AgentsResult& agents, Stamp start) {
+  const auto time = [&](Stamp at) { return rounded_seconds(seconds_between(start, at)); };
+  PageData known = PageData::array(), sent = known, events = known;
+  for (const auto& then : agents.known)
+    known.push_back({{"t", time(then.at)},
+                     {"agent", then.agent},
+                     {"share", rounded_metres(then.share)},
+                     {"error_m", then.error_m ? rounded_metres(*then.error_m) : PageData()}});
+  for (const auto& [kind, of] : agents.sent)
+    sent.push_back({{"kind", kind}, {"messages", of.messages}, {"bytes", of.bytes}, {"lost", of.lost}});
+  for (const auto& event : agents.events) events.push_back({{"t", time(event.at)}, {"what", event.what}});
+  return {{"known", std::move(known)}, {"sent", std::move(sent)}, {"events", std::move(events)}};
+}
+
 PageData page_data(const RunResult& result, const Truth* truth, const std::optional<TeamMetrics>& metrics,
                    const ClosuresByKind& compared_closures, const ReportParams& params) {
   PageData page{{"format", "radioslam-report/1"},
@@ -284,9 +300,11 @@ PageData page_data(const RunResult& result, const Truth* truth, const std::optio
 
 std::string render_report(const RunResult& result, const Truth* truth,
                           const std::optional<TeamMetrics>& metrics, const ClosuresByKind& compared_closures,
-                          const ReportParams& params, const StreamResult* stream) {
+                          const ReportParams& params, const StreamResult* stream,
+                          const AgentsResult* agents) {
   PageData page = page_data(result, truth, metrics, compared_closures, params);
   if (stream) page["stream"] = stream_data(*stream, first_stamp(result));
+  if (agents) page["agents"] = agents_data(*agents, first_stamp(result));
   return embed_data(page_head(), page, page_tail());
 }
 

@@ -10,6 +10,7 @@
 #include "radioslam/eval/metrics.hpp"
 #include "radioslam/mission/truth.hpp"
 #include "radioslam/report/report_params.hpp"
+#include "radioslam/results/agents_result.hpp"
 #include "radioslam/results/results.hpp"
 #include "radioslam/results/stream_result.hpp"
 
@@ -17,10 +18,11 @@ namespace radioslam {
 
 /// The page. `truth` may be null; with `truth` and `metrics` the map is drawn in the truth's frame (through
 /// metrics->T_truth_estimate), and dead reckoning is evaluated as well, after its own alignment.
-/// `compared_closures` are shown beside the closures; `stream`, of a streamed mission, may be null.
+/// `compared_closures` are shown beside the closures; `stream`, of a streamed mission, and `agents`, of one
+/// lived through by agents, may be null.
 std::string render_report(const RunResult& result, const Truth* truth = nullptr,
                           const std::optional<TeamMetrics>& metrics = std::nullopt,
                           const ClosuresByKind& compared_closures = {}, const ReportParams& params = {},
-                          const StreamResult* stream = nullptr);
+                          const StreamResult* stream = nullptr, const AgentsResult* agents = nullptr);
 
 }  // namespace radioslam

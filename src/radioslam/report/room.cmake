@@ -13,4 +13,4 @@ radioslam_room(report
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_report ${CMAKE_CURRENT_SOURCE_DIR}/report/page radioslam/report/page_parts.hpp radioslam
   data.js format.js colours.js state.js chart.js maps.js map_layers.js map_view.js map_space.js map_panel.js headline.js errors.js
-  stream.js hypotheses.js overlap.js places.js directions.js access_points.js signals.js similarity.js tables.js parameters.js main.js)
+  agents.js stream.js hypotheses.js overlap.js places.js directions.js access_points.js signals.js similarity.js tables.js parameters.js main.js)

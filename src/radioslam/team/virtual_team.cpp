@@ -49,6 +49,45 @@ struct Host {
   const ScriptedRun* current() const { return run < script->runs.size() ? &script->runs[run] : nullptr; }
 };
 
+/// Lets the robot's front end say what is due; how many records.
+std::size_t let_say(Host& host, const ScriptedRun& run, Stamp now) {
+  std::size_t said = 0;
+  for (; host.next < run.records.size() && run.records[host.next].first <= now; ++host.next) {
+    const std::string& record = run.records[host.next].second;
+    ++said;
+    if (!host.resumed)
+      host.agent->say(record);
+    else if (auto continued = host.resumed->continued(record))
+      host.agent->say(*std::move(continued));
+  }
+  const Stamp registered{now.ns - Stamp::from_seconds(kRegistered_s).ns};
+  for (; host.next_cloud < run.clouds.size() && run.clouds[host.next_cloud].first <= registered;
+       ++host.next_cloud)
+    host.agent->add_cloud(run.clouds[host.next_cloud].first, run.clouds[host.next_cloud].second);
+  return said;
+}
+
+/// The estimates that agents ask for; those of the same key are made once.
+class SharedEstimates {
+ public:
+  const AnyGrownEstimate& of(const EstimateJob& job) {
+    ++asked_;
+    const auto found =
+        std::find_if(last_.begin(), last_.end(), [&](const auto& of) { return of.first == job.key; });
+    if (found != last_.end()) return found->second;
+    ++computed_;
+    last_.emplace_front(job.key, job.run());
+    if (last_.size() > kShared) last_.pop_back();
+    return last_.front().second;
+  }
+  std::size_t asked() const { return asked_; }
+  std::size_t computed() const { return computed_; }
+
+ private:
+  std::deque<std::pair<std::string, AnyGrownEstimate>> last_;
+  std::size_t asked_ = 0, computed_ = 0;
+};
+
 std::vector<std::string> names_of(const std::vector<ScriptedRobot>& robots) {
   std::vector<std::string> names;
   for (const ScriptedRobot& robot : robots) names.push_back(robot.name);
@@ -88,6 +127,8 @@ class VirtualTeam {
     }
     for (Host& host : hosts_) conclude(host);
     run_.traffic = network_.traffic();
+    run_.estimates = estimates_.asked();
+    run_.computed = estimates_.computed();
     return std::move(run_);
   }
 
@@ -105,18 +146,7 @@ class VirtualTeam {
     }
     if (run && !host.agent && run->begin <= now) start(host, now);
     if (!run || !host.agent) return;
-    for (; host.next < run->records.size() && run->records[host.next].first <= now; ++host.next) {
-      const std::string& record = run->records[host.next].second;
-      ++said_;
-      if (!host.resumed)
-        host.agent->say(record);
-      else if (auto continued = host.resumed->continued(record))
-        host.agent->say(*std::move(continued));
-    }
-    const Stamp registered{now.ns - Stamp::from_seconds(kRegistered_s).ns};
-    for (; host.next_cloud < run->clouds.size() && run->clouds[host.next_cloud].first <= registered;
-         ++host.next_cloud)
-      host.agent->add_cloud(run->clouds[host.next_cloud].first, run->clouds[host.next_cloud].second);
+    said_ += let_say(host, *run, now);
   }
 
   void start(Host& host, Stamp now) {
@@ -159,20 +189,10 @@ class VirtualTeam {
   }
 
   void make(Host& host, const EstimateJob& job, Stamp now) {
-    ++run_.estimates;
-    auto found =
-        std::find_if(shared_.begin(), shared_.end(), [&](const auto& of) { return of.first == job.key; });
-    if (found == shared_.end()) {
-      ++run_.computed;
-      shared_.emplace_front(job.key, job.run());
-      if (shared_.size() > kShared) shared_.pop_back();
-      found = shared_.begin();
-    }
+    const AnyGrownEstimate& grown = estimates_.of(job);
     const bool is_short = std::visit(
-        [](const auto& grown) { return !grown.solution || grown.solution->effort == Effort::kExtend; },
-        found->second);
-    host.done.emplace_back(Stamp{now.ns + Stamp::from_seconds(is_short ? kExtend_s : kJudge_s).ns},
-                           found->second);
+        [](const auto& of) { return !of.solution || of.solution->effort == Effort::kExtend; }, grown);
+    host.done.emplace_back(Stamp{now.ns + Stamp::from_seconds(is_short ? kExtend_s : kJudge_s).ns}, grown);
   }
 
   void observe(Host& host, Stamp now) {
@@ -217,7 +237,7 @@ class VirtualTeam {
   const Progress& progress_;
   VirtualNetwork network_;
   std::vector<Host> hosts_;
-  std::deque<std::pair<std::string, AnyGrownEstimate>> shared_;
+  SharedEstimates estimates_;
   std::optional<Stamp> begin_;
   Stamp last_;
   std::size_t said_ = 0;

@@ -74,9 +74,26 @@ RunOutput estimate_of(const std::vector<RobotLog>& logs, const RunParams& params
   return run;
 }
 
-void write_result(const fs::path& folder, const RunOutput& run, const MissionInput& given) {
+void write_result(const fs::path& folder, const RunOutput& run, const MissionInput& given,
+                  const AgentsResult* agents = nullptr) {
   fs::create_directories(folder);
-  write_run(folder, run.result, documents_of(run, given, evaluate(run.result, given)));
+  write_run(folder, run.result, documents_of(run, given, evaluate(run.result, given), nullptr, agents));
+}
+
+/// As the page shows it.
+AgentsResult agents_result(const TeamRun& run) {
+  AgentsResult result;
+  for (const KnownThen& then : run.known)
+    result.known.push_back({then.at, then.agent, then.share, then.error_m});
+  for (const auto& [key, traffic] : run.traffic) {
+    AgentsResult::Sent& sent = result.sent[kAgentMessageKinds[std::get<2>(key)]];
+    sent.messages += traffic.messages;
+    sent.bytes += traffic.bytes;
+    sent.lost += traffic.lost;
+  }
+  for (const auto& [agent, event] : run.events)
+    result.events.push_back({event.at, "robot " + agent + ": " + event.what});
+  return result;
 }
 
 /// Each agent's result, and that of the one that knows most.
@@ -106,7 +123,8 @@ void write_results(const TeamRun& run, const RunParams& params, const MissionInp
     }
   }
   if (!most) throw InputError("team", 0, "no robot has said anything");
-  write_result(folder, *most, given);
+  const AgentsResult agents = agents_result(run);
+  write_result(folder, *most, given, &agents);
 }
 
 void run_agents(const TeamArguments& arguments) {

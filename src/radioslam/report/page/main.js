@@ -3,6 +3,7 @@
 write_headline();
 write_map();
 write_errors();
+write_agents();
 write_stream();
 write_robots();
 write_frames();
