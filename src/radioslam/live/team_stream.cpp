@@ -17,6 +17,12 @@ namespace {
 
 constexpr double kMeasured_s = 5;  // between comparisons with the truth
 
+/// An estimate is soon made again: each searches places in one round.
+RunParams in_one_round(RunParams params) {
+  params.places.rounds = 1;
+  return params;
+}
+
 /// A record when it is known, by its robot.
 struct Said {
   Stamp known;
@@ -40,7 +46,7 @@ class TeamStream {
              const StreamParams& stream, const ErrorOf& error_of, const Progress& progress)
       : mission_(mission),
         robots_(robots),
-        params_(params),
+        params_(in_one_round(params)),
         error_of_(error_of),
         progress_(progress),
         known_(stream) {
@@ -112,7 +118,7 @@ class TeamStream {
 
   const Mission& mission_;
   const std::vector<ReplayedRobot>& robots_;
-  const RunParams& params_;
+  const RunParams params_;
   const ErrorOf& error_of_;
   const Progress& progress_;
   GrowingEstimate<Pose> known_;

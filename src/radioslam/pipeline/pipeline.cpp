@@ -472,7 +472,7 @@ TeamSolution<Pose> estimate(const TeamView& view, const TeamSolution<Pose>* last
       align_team<Pose>(run, build_team<Pose>(run, nullptr, input.scans), last ? &last->team : nullptr,
                        searches ? AlignmentSearch::kAll : AlignmentSearch::kNearKnown);
   auto judged = judge_with_places(run, aligned, input.scans, continues ? *last->places : RecognisedPlaces{},
-                                  1, input.places);
+                                  params.places.rounds, input.places);
   return {std::move(judged.judged.team), radio,
           std::make_shared<const RecognisedPlaces>(std::move(judged.places)),
           searches ? Effort::kAlign : Effort::kJudge, aligned.alignment.weight};

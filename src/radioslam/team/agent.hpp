@@ -81,6 +81,8 @@ class Agent {
   const AgentEstimate& estimate() const { return *estimate_; }
   /// Whether it looks for closures among the scans that it has.
   bool is_busy() const { return scans_.is_busy(); }
+  /// Its own and those of others that it has.
+  std::size_t clouds() const { return scans_.clouds(); }
   /// Where the robots are: by its own estimate, or by the solution that it took.
   PublishedFrame frame_of(const std::string& robot) const;
 

@@ -1,7 +1,9 @@
 #include "radioslam/team/agent_estimate.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <deque>
+#include <set>
 #include <utility>
 
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -9,6 +11,8 @@
 
 namespace radioslam {
 namespace {
+
+constexpr double kUnknown = 2;  // strides between clouds that are asked for where nothing aligns two robots
 
 /// A short name of a text, the same on every machine (FNV-1a).
 std::string digest_of(const std::string& text) {
@@ -20,10 +24,30 @@ std::string digest_of(const std::string& text) {
 }
 
 template <class Pose>
-const RobotVariables* variables_of(const JointGraph<Pose>& joint, const std::string& robot) {
-  for (const RobotVariables& of : joint.robots)
-    if (of.id == robot) return &of;
-  return nullptr;
+std::optional<std::size_t> number_of(const JointGraph<Pose>& joint, const std::string& robot) {
+  for (std::size_t r = 0; r < joint.robots.size(); ++r)
+    if (joint.robots[r].id == robot) return r;
+  return std::nullopt;
+}
+
+template <class Pose>
+Eigen::Vector3d position_of(const std::vector<Pose>& poses, PoseId at) {
+  return as_se3(poses[at.index()], 0).translation();
+}
+
+/// The robot's keyframes where this holds, so far apart.
+template <class Pose, class Holds>
+std::vector<Stamp> apart(const std::vector<Pose>& poses, const RobotVariables& robot, double stride_m,
+                         const Holds& holds) {
+  std::vector<Stamp> stamps;
+  std::optional<Eigen::Vector3d> last;
+  for (std::size_t k = 0; k < robot.poses.size(); ++k) {
+    const Eigen::Vector3d here = position_of(poses, robot.poses[k]);
+    if ((last && (here - *last).norm() < stride_m) || !holds(here)) continue;
+    last = here;
+    stamps.push_back(robot.stamps[k]);
+  }
+  return stamps;
 }
 
 /// What a job on scans works with.
@@ -138,26 +162,26 @@ class AgentEstimateOf : public AgentEstimate {
 
   std::vector<Stamp> near(const std::string& self, const std::string& other, double range_m,
                           double stride_m) const override {
-    std::vector<Stamp> near;
-    if (!known_.last() || frames_.of(self).frame != frames_.of(other).frame) return near;
-    const JointGraph<Pose>& joint = known_.last()->team.joint;
-    const RobotVariables *own = variables_of(joint, self), *of = variables_of(joint, other);
-    if (!own || !of) return near;
-    const auto place = [&](const RobotVariables& robot, std::size_t k) -> Eigen::Vector3d {
-      return as_se3(joint.team.graph.poses[robot.poses[k].index()], 0).translation();
+    if (!known_.last()) return {};
+    const TeamEstimate<Pose>& team = known_.last()->team;
+    const auto own = number_of(team.joint, self), of = number_of(team.joint, other);
+    if (!own || !of) return {};
+    const RobotVariables& robot = team.joint.robots[*of];
+    std::set<Stamp> near;
+    if (team.alignment.component[*own] != team.alignment.component[*of])
+      return apart(team.joint.team.graph.poses, robot, kUnknown * stride_m, [](const auto&) { return true; });
+    const auto add = [&](const std::vector<Pose>& poses) {
+      const auto& way = team.joint.robots[*own].poses;
+      const auto stamps = apart(poses, robot, stride_m, [&](const Eigen::Vector3d& here) {
+        return std::any_of(way.begin(), way.end(),
+                           [&](PoseId at) { return (position_of(poses, at) - here).norm() < range_m; });
+      });
+      near.insert(stamps.begin(), stamps.end());
     };
-    std::optional<Eigen::Vector3d> last;
-    for (std::size_t k = 0; k < of->poses.size(); ++k) {
-      const Eigen::Vector3d here = place(*of, k);
-      if (last && (here - *last).norm() < stride_m) continue;
-      bool is_near = false;
-      for (std::size_t n = 0; n < own->poses.size() && !is_near; ++n)
-        is_near = (place(*own, n) - here).norm() < range_m;
-      if (!is_near) continue;
-      last = here;
-      near.push_back(of->stamps[k]);
-    }
-    return near;
+    add(team.joint.team.graph.poses);
+    for (std::size_t k = 0; k < team.alignment.alternatives.size(); ++k)
+      if (team.alignment.alternative_weights[k] >= kMinSearchedWeight) add(team.alignment.alternatives[k]);
+    return {near.begin(), near.end()};
   }
 
   const PublishedFrames& frames() const override { return frames_; }

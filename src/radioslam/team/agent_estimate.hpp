@@ -57,8 +57,8 @@ class AgentEstimate {
   virtual std::optional<ScanJob> scan_job(const std::string& self, const ScansSoFar& own,
                                           const std::map<std::string, ScansSoFar>& others,
                                           std::shared_ptr<const RecognisedPlaces> tried) const = 0;
-  /// Keyframes of another robot from which, as estimated, something within `range_m` of this robot's way can
-  /// be seen, `stride_m` apart; none where they are not in one frame.
+  /// Keyframes of another robot within `range_m` of this robot's way in any of the likely alignments,
+  /// `stride_m` apart. Where nothing aligns the two, any may be; these are farther apart.
   virtual std::vector<Stamp> near(const std::string& self, const std::string& other, double range_m,
                                   double stride_m) const = 0;
 

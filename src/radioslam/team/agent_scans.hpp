@@ -36,6 +36,7 @@ class AgentScans {
   std::optional<ScanJob> job(const AgentEstimate& estimate, Stamp now);
   /// The new closures, encoded. `own`: the robot's keyframes as its log says them.
   std::vector<std::string> done(const ScanResult& result, const LoggedKeyframes& own);
+  std::size_t clouds() const { return clouds_; }
   /// Whether work is done, or will be.
   bool is_busy() const { return is_working_ || news_ > 0; }
 

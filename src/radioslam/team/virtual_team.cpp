@@ -8,7 +8,7 @@
 namespace radioslam {
 namespace {
 
-constexpr double kTick_s = 0.1, kCommit_s = 1, kObserve_s = 5, kSettle_s = 120;
+constexpr double kTick_s = 0.1, kCommit_s = 1, kObserve_s = 5, kSettle_s = 180, kQuiet_s = 15;
 constexpr double kExtend_s = 0.1, kJudge_s = 1;  // virtual time of an estimate
 constexpr double kRegistered_s = 0.5;            // after which a keyframe's cloud is there
 constexpr std::size_t kShared = 8;               // estimates that are kept for others
@@ -67,6 +67,18 @@ std::size_t let_say(Host& host, const ScriptedRun& run, Stamp now) {
   return said;
 }
 
+/// What the agent knows in the end.
+void conclude(const Host& host, TeamRun& run) {
+  if (!host.agent) return;
+  auto& logs = run.logs[host.script->name];
+  for (const auto& [robot, extent] : host.agent->logs().extents()) {
+    RobotLog& log = logs.emplace_back(RobotLog{robot, {}});
+    for (const auto& [number, record] : host.agent->logs().log(robot).records)
+      if (number < extent.records) log.records.push_back(record);
+  }
+  run.extents[host.script->name] = host.agent->logs().extents();
+}
+
 /// The estimates that agents ask for; those of the same key are made once.
 class SharedEstimates {
  public:
@@ -123,9 +135,10 @@ class VirtualTeam {
       for (std::size_t k = 0; k < hosts_.size(); ++k) act(k, now);
       report_progress(progress_, "team", seconds_between(*begin_, now) / seconds_between(*begin_, end));
       run_.end = now;
-      if (now > end || (now > last_ && tick % 10 == 0 && is_settled())) break;
+      if (tick % 10 == 0) note_changes(now);
+      if (now > end || (now > last_ && seconds_between(changed_, now) > kQuiet_s)) break;
     }
-    for (Host& host : hosts_) conclude(host);
+    for (const Host& host : hosts_) conclude(host, run_);
     run_.traffic = network_.traffic();
     run_.estimates = estimates_.asked();
     run_.computed = estimates_.computed();
@@ -208,29 +221,22 @@ class VirtualTeam {
     run_.known.push_back(std::move(then));
   }
 
-  bool is_settled() const {
+  /// Until when somebody learned something, or somebody knew more than another.
+  void note_changes(Stamp now) {
+    std::uint64_t known = 0;
     const Agent* first = nullptr;
+    bool is_settled = true;
     for (const Host& host : hosts_) {
-      if (!host.agent) {
-        if (host.current()) return false;
-        continue;
-      }
+      is_settled = is_settled && (host.agent || !host.current());
+      if (!host.agent) continue;
       if (!first) first = host.agent.get();
-      if (host.agent->is_busy()) return false;
-      if (host.agent->logs().extents() != first->logs().extents()) return false;
+      is_settled =
+          is_settled && !host.agent->is_busy() && host.agent->logs().extents() == first->logs().extents();
+      known += host.agent->clouds();
+      for (const auto& [robot, extent] : host.agent->logs().extents()) known += extent.records;
     }
-    return true;
-  }
-
-  void conclude(Host& host) {
-    if (!host.agent) return;
-    auto& logs = run_.logs[host.script->name];
-    for (const auto& [robot, extent] : host.agent->logs().extents()) {
-      RobotLog& log = logs.emplace_back(RobotLog{robot, {}});
-      for (const auto& [number, record] : host.agent->logs().log(robot).records)
-        if (number < extent.records) log.records.push_back(record);
-    }
-    run_.extents[host.script->name] = host.agent->logs().extents();
+    if (!is_settled || known != known_) changed_ = now;
+    known_ = known;
   }
 
   const VirtualTeamSetup& setup_;
@@ -239,7 +245,8 @@ class VirtualTeam {
   std::vector<Host> hosts_;
   SharedEstimates estimates_;
   std::optional<Stamp> begin_;
-  Stamp last_;
+  Stamp last_, changed_;
+  std::uint64_t known_ = 0;  ///< records and clouds, of all agents
   std::size_t said_ = 0;
   TeamRun run_;
 };
