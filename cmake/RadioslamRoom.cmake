@@ -1,17 +1,20 @@
-# radioslam_room(NAME [NOT_INSTALLED] SOURCES a.cpp ... ROOMS base ... LIBRARIES Eigen3::Eigen ...)
+# radioslam_room(FOLDER [NOT_INSTALLED] SOURCES a.cpp ... ROOMS base ... LIBRARIES Eigen3::Eigen ...)
 #
 # Each room is one target and can include only the rooms it links, so that the compiler enforces the order of the rooms
-# in docs/architecture.md: the include directory of a target contains a symbolic link to that room only.
+# in docs/architecture.md: the include directory of a target contains a symbolic link to that room only. The target of
+# io/dds is radioslam_io_dds.
 # BUILD_SHARED_LIBS decides the kind of library. A shared room calls its own copies of inline functions, so that the
 # sanitizer build checks them even where a program brings copies that were compiled without.
-function(radioslam_room NAME)
+function(radioslam_room FOLDER)
   cmake_parse_arguments(ROOM "NOT_INSTALLED" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  string(REPLACE "/" "_" NAME ${FOLDER})
   set(room_include ${PROJECT_BINARY_DIR}/rooms/${NAME})
-  file(MAKE_DIRECTORY ${room_include}/radioslam)
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${NAME} ${room_include}/radioslam/${NAME} SYMBOLIC)
+  get_filename_component(parent radioslam/${FOLDER} DIRECTORY)
+  file(MAKE_DIRECTORY ${room_include}/${parent})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${FOLDER} ${room_include}/radioslam/${FOLDER} SYMBOLIC)
 
   list(TRANSFORM ROOM_ROOMS PREPEND radioslam_)
-  list(TRANSFORM ROOM_SOURCES PREPEND ${NAME}/)
+  list(TRANSFORM ROOM_SOURCES PREPEND ${FOLDER}/)
   set(kind "")
   set(scope PUBLIC)
   if(NOT ROOM_SOURCES)

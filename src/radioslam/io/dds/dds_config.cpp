@@ -1,0 +1,65 @@
+#include "radioslam/io/dds/dds_config.hpp"
+
+namespace radioslam {
+namespace {
+
+// A datagram that fits into one frame of the network: a lost fragment of a larger one would cost the whole,
+// and fills the buffer in which the kernel joins them.
+constexpr const char* kMessageBytes = "1400B";
+constexpr const char* kFragmentBytes = "1300B";
+// Beyond that many unacknowledged bytes a writer waits; with less, a robot that leaves would stop the others.
+constexpr const char* kUnacknowledgedBytes = "16MB";
+// How often robots that are not there are looked for: one that comes back into reach is found that soon.
+constexpr const char* kDiscoveryInterval = "3s";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string element(const std::string& name, const std::string& content) {
+  return "<" + name + ">" + content + "</" + name + ">";
+}
+
+std::string interfaces(const std::string& interface) {
+  if (interface.empty()) return {};
+  const bool is_address = interface.find_first_not_of("0123456789.") == std::string::npos;
+  return element("Interfaces", std::string("<NetworkInterface ") + (is_address ? "address" : "name") + "=\"" +
+                                   escaped(interface) + "\"/>");
+}
+
+std::string peers(const std::vector<std::string>& addresses) {
+  std::string list;
+  for (const std::string& address : addresses) list += "<Peer address=\"" + escaped(address) + "\"/>";
+  return list.empty() ? list : element("Peers", list);
+}
+
+}  // namespace
+
+std::string cyclone_config(const DdsConfig& config, const std::optional<std::string>& cyclonedds_uri) {
+  const std::string general =
+      interfaces(config.interface) +
+      element("AllowMulticast", config.discovery == DdsDiscovery::kPeers ? "false" : "spdp") +
+      element("MaxMessageSize", kMessageBytes) + element("FragmentSize", kFragmentBytes);
+  const std::string discovery =
+      element("ExternalDomainId", std::to_string(config.domain)) + element("ParticipantIndex", "auto") +
+      element("MaxAutoParticipantIndex", std::to_string(config.robots_per_host - 1)) + peers(config.peers) +
+      element("SPDPInterval", kDiscoveryInterval);
+  const std::string internal = element("Watermarks", element("WhcHigh", kUnacknowledgedBytes));
+  const std::string own = element("CycloneDDS", "<Domain id=\"any\">" + element("General", general) +
+                                                    element("Discovery", discovery) +
+                                                    element("Internal", internal) + "</Domain>");
+  return cyclonedds_uri && !cyclonedds_uri->empty() ? own + "," + *cyclonedds_uri : own;
+}
+
+}  // namespace radioslam
