@@ -3,68 +3,17 @@
 #include <dds/dds.h>
 #include <gtest/gtest.h>
 
-#include <mutex>
 #include <random>
 
+#include "io/dds/dds_samples.hpp"
 #include "io/dds/dds_test_domain.hpp"
 #include "io/refusal.hpp"
-#include "io/ros/ros_bytes.hpp"
 #include "radioslam/io/dds/dds_names.hpp"
 #include "radioslam/io/dds/raw_type.hpp"
 #include "radioslam/io/ros/ros_types.hpp"
 
 namespace radioslam {
 namespace {
-
-const std::string kOdometry = dds_type("nav_msgs/msg/Odometry"),
-                  kCloud = dds_type("sensor_msgs/msg/PointCloud2");
-
-std::string odometry_at(double x) {
-  RosBytes bytes(MessageEncoding::kCdr);
-  bytes.header(100, 5, "odom")
-      .text("base_link")
-      .f64s({x, 2, 3, 0, 0, 0, 1})
-      .f64s(std::vector<double>(36, 0.25));
-  return bytes.f64s({0, 0, 0, 0, 0, 0}).f64s(std::vector<double>(36, 0.5)).bytes();
-}
-
-/// PointCloud2 with x, y, z as f32.
-std::string cloud(std::size_t points) {
-  RosBytes bytes(MessageEncoding::kCdr);
-  bytes.header(100, 5, "lidar").u32(1).u32(points).u32(3);
-  for (unsigned k = 0; k < 3; ++k) bytes.text(std::string(1, "xyz"[k])).u32(4 * k).u8(7).u32(1);
-  bytes.u8(0).u32(12).u32(12 * points).u32(12 * points);
-  for (std::size_t k = 0; k < 3 * points; ++k) bytes.f32(static_cast<float>(k % 1000) / 8);
-  return bytes.u8(1).bytes();
-}
-
-/// What a reader has been given, from any thread.
-class Received {
- public:
-  DdsReader::Take take() {
-    return [this](const DdsReader::Sample& sample) {
-      const std::lock_guard lock(mutex_);
-      samples_.emplace_back(sample.cdr);
-    };
-  }
-  std::size_t count() const {
-    const std::lock_guard lock(mutex_);
-    return samples_.size();
-  }
-  std::string at(std::size_t k) const {
-    const std::lock_guard lock(mutex_);
-    return samples_.at(k);
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::vector<std::string> samples_;
-};
-
-RosPose pose_of(const std::string& cdr) {
-  const RosChannel channel{"/odom", "nav_msgs/Odometry"};
-  return read_ros_pose({channel, Stamp{0}, cdr, "wire"});
-}
 
 class DdsTopic : public testing::Test {
  protected:
@@ -256,6 +205,10 @@ TEST_F(DdsTopic, AWriterOfAnotherEncapsulationHarmsItselfAloneAndIsNoted) {
   const dds_entity_t bad = dds_create_writer(hostile.participant(), topic, nullptr, nullptr);
   DdsWriter good(a_, "rt/odom", kOdometry);
   ASSERT_TRUE(becomes_true([&] { return good.matched() == 1 && reader.matched() == 2; }));
+  ASSERT_TRUE(becomes_true([&] {
+    dds_publication_matched_status_t status{};
+    return dds_get_publication_matched_status(bad, &status) == DDS_RETCODE_OK && status.current_count >= 1;
+  }));
   for (const std::string bytes : {"\x77\x55\x33\x11 and more", "\x77\x55\x33\x11", "\x77", ""})
     EXPECT_EQ(dds_writecdr(bad, make_raw_sample(type, bytes)), DDS_RETCODE_OK);
   for (int k = 0; k < 10; ++k) ASSERT_TRUE(good.write(odometry_at(k)));
