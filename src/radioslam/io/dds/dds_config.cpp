@@ -9,6 +9,8 @@ constexpr const char* kMessageBytes = "1400B";
 constexpr const char* kFragmentBytes = "1300B";
 // Beyond that many unacknowledged bytes a writer waits; with less, a robot that leaves would stop the others.
 constexpr const char* kUnacknowledgedBytes = "16MB";
+// Of the kernel, for what arrives at once: two clouds of a megabyte. It gives what net.core.rmem_max allows.
+constexpr const char* kReceivedBytes = "4MB";
 // How often robots that are not there are looked for: one that comes back into reach is found that soon.
 constexpr const char* kDiscoveryInterval = "3s";
 
@@ -55,7 +57,8 @@ std::string cyclone_config(const DdsConfig& config, const std::optional<std::str
       element("ExternalDomainId", std::to_string(config.domain)) + element("ParticipantIndex", "auto") +
       element("MaxAutoParticipantIndex", std::to_string(config.robots_per_host - 1)) + peers(config.peers) +
       element("SPDPInterval", kDiscoveryInterval);
-  const std::string internal = element("Watermarks", element("WhcHigh", kUnacknowledgedBytes));
+  const std::string internal = element("Watermarks", element("WhcHigh", kUnacknowledgedBytes)) +
+                               "<SocketReceiveBufferSize min=\"default\" max=\"" + kReceivedBytes + "\"/>";
   const std::string own = element("CycloneDDS", "<Domain id=\"any\">" + element("General", general) +
                                                     element("Discovery", discovery) +
                                                     element("Internal", internal) + "</Domain>");

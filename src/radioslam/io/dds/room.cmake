@@ -7,5 +7,6 @@ radioslam_room(io/dds
     dds_names.cpp
     dds_topic.cpp
     raw_type.cpp
+    team_channel.cpp
   ROOMS io
   PRIVATE_LIBRARIES CycloneDDS::ddsc)
