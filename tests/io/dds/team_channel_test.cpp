@@ -40,6 +40,12 @@ bool see_each_other(std::initializer_list<Robot*> robots) {
   });
 }
 
+std::size_t count(const Robot& robot, const std::string& octets) {
+  std::size_t found = 0;
+  for (const TeamMessage& message : robot.received()) found += message.octets == octets ? 1 : 0;
+  return found;
+}
+
 TEST(TeamMessageCdr, ComesBack) {
   const TeamMessage message{"a", "robot b", 255, std::string("\0\1\xff", 3)};
   const auto back = decode_team_message(encode_cdr(message));
@@ -71,16 +77,16 @@ TEST(TeamChannel, ReachesAllOrOne) {
   EXPECT_FALSE(a.channel().send("nobody", 1, "x"));
   ASSERT_TRUE(see_each_other({&a, &b, &c}));
   ASSERT_TRUE(a.channel().send("", 1, "to all"));
-  ASSERT_TRUE(becomes_true([&] { return a.channel().send("robot-c", 2, "to one"); }));
-  ASSERT_TRUE(becomes_true([&] { return b.received().size() == 1 && c.received().size() == 2; }));
-  EXPECT_EQ(b.received()[0].octets, "to all");
-  EXPECT_EQ(b.received()[0].from, "a");
-  EXPECT_EQ(c.received()[1].octets, "to one");
-  EXPECT_EQ(c.received()[1].kind, 2);
+  ASSERT_TRUE(becomes_true([&] { return count(b, "to all") == 1 && count(c, "to all") == 1; }));
+  ASSERT_TRUE(
+      becomes_true([&] { return a.channel().send("robot-c", 2, "to one") && count(c, "to one") > 0; }));
   ASSERT_TRUE(becomes_true([&] {
-    return a.channel().send("", 3, "digest", TeamChannel::Delivery::kBestEffort) && b.received().size() > 1;
+    return a.channel().send("", 3, "digest", TeamChannel::Delivery::kBestEffort) && count(b, "digest") > 0 &&
+           count(c, "digest") > 0;
   }));
-  EXPECT_EQ(b.received()[1].octets, "digest");
+  EXPECT_EQ(b.received()[0].from, "a");
+  EXPECT_EQ(b.received()[0].kind, 1);
+  EXPECT_EQ(count(b, "to one"), 0u);
   EXPECT_TRUE(a.received().empty());
   for (Robot* robot : {&a, &b, &c}) EXPECT_TRUE(robot->domain().take_notes().empty());
 }
@@ -91,9 +97,8 @@ TEST(TeamChannel, LargeMessagesArriveWhole) {
   std::string large(1'000'000, '\0');
   std::mt19937 random(1);
   for (char& c : large) c = static_cast<char>(random());
-  ASSERT_TRUE(becomes_true([&] { return a.channel().send("b", 1, large); }));
-  ASSERT_TRUE(becomes_true([&] { return b.received().size() == 1; }));
-  EXPECT_TRUE(b.received()[0].octets == large);
+  ASSERT_TRUE(a.channel().send("", 1, large));
+  ASSERT_TRUE(becomes_true([&] { return count(b, large) == 1; }));
 }
 
 TEST(TeamChannel, WhatIsNoMessageIsCounted) {

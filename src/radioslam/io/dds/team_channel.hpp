@@ -5,6 +5,7 @@
 // are repeated until they have arrived.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -41,8 +42,8 @@ class TeamChannel {
   /// Messages to one robot are always reliable.
   [[nodiscard]] bool send(const std::string& to, std::uint8_t kind, std::string_view octets,
                           Delivery delivery = Delivery::kReliable);
-  /// Robots that this one reaches.
-  std::size_t others() const { return all_.matched(); }
+  /// Robots that this one reaches, and that reach it.
+  std::size_t others() const { return std::min(all_.matched(), all_reader_.matched()); }
   /// Samples that were no messages, and those that were lost.
   std::uint64_t not_understood() const { return not_understood_; }
   std::uint64_t lost() const;
