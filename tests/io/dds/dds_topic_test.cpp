@@ -231,6 +231,23 @@ TEST(DdsConfig, WhatCycloneRefusesIsRefusedWithItsReason) {
   expect_refusal([&] { const DdsDomain domain(config); }, 0, "the domain must be at most 232");
 }
 
+TEST(DdsConfig, MoreRobotsThanAreLookedForAtAnAddressAreRefused) {
+  DdsConfig config = test_config();
+  config.robots_per_host = 2;
+  const DdsDomain a(config), b(config);
+  expect_refusal([&] { const DdsDomain c(config); }, 0, "robots of this host: at most 2");
+}
+
+TEST(DdsConfig, ManyTopicsAreAllKnown) {
+  DdsDomain a(test_config());
+  const DdsDomain b(test_config());
+  std::vector<std::unique_ptr<DdsWriter>> writers;
+  for (int k = 0; k < 600; ++k)
+    writers.push_back(std::make_unique<DdsWriter>(a, "rt/topic" + std::to_string(k), kOdometry));
+  EXPECT_EQ(a.writers().size(), 600u);
+  EXPECT_TRUE(becomes_true([&] { return b.writers().size() == 600; }));
+}
+
 TEST(DdsConfig, TheUsersCycloneddsUriPrevailsAndIsNoted) {
   ::setenv("CYCLONEDDS_URI", "<CycloneDDS><Domain><General><Nonsense/></General></Domain></CycloneDDS>", 1);
   const std::string line = refusal([] { const DdsDomain domain(test_config()); });

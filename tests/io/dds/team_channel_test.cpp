@@ -112,6 +112,15 @@ TEST(TeamChannel, WhatIsNoMessageIsCounted) {
   EXPECT_TRUE(a.received().empty());
 }
 
+TEST(TeamChannel, AnotherRobotOfThisNameIsNoticed) {
+  Robot a("a"), b("b"), namesake("a");
+  ASSERT_TRUE(see_each_other({&a, &b, &namesake}));
+  ASSERT_TRUE(a.channel().send("", 1, "x"));
+  ASSERT_TRUE(becomes_true([&] { return namesake.channel().of_namesakes() == 1 && count(b, "x") == 1; }));
+  EXPECT_TRUE(namesake.received().empty());
+  EXPECT_EQ(a.channel().of_namesakes(), 0u);
+}
+
 /// With three of ten packets lost each way, what is sent at a pace that the writer can repeat arrives, in
 /// order.
 TEST(TeamChannel, ReliableMessagesSurviveLoss) {

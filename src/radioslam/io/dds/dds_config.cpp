@@ -57,10 +57,10 @@ std::string cyclone_config(const DdsConfig& config, const std::optional<std::str
       interfaces(config.interface) +
       element("AllowMulticast", config.discovery == DdsDiscovery::kPeers ? "false" : "spdp") +
       element("MaxMessageSize", kMessageBytes) + element("FragmentSize", kFragmentBytes);
-  const std::string discovery =
-      element("ExternalDomainId", std::to_string(config.domain)) + element("ParticipantIndex", "auto") +
-      element("MaxAutoParticipantIndex", std::to_string(config.robots_per_host - 1)) + peers(config.peers) +
-      element("SPDPInterval", kDiscoveryInterval);
+  const std::string discovery = element("ExternalDomainId", std::to_string(config.domain)) +
+                                element("ParticipantIndex", "auto") +
+                                element("MaxAutoParticipantIndex", std::to_string(config.robots_per_host)) +
+                                peers(config.peers) + element("SPDPInterval", kDiscoveryInterval);
   const std::string internal = element("NackDelay", kRepeatDelay) + element("HeartbeatInterval", kHeartbeat) +
                                element("Watermarks", element("WhcHigh", kUnacknowledgedBytes)) +
                                "<SocketReceiveBufferSize min=\"default\" max=\"" + kReceivedBytes + "\"/>";

@@ -13,7 +13,7 @@
 namespace radioslam {
 namespace {
 
-constexpr std::uint32_t kMostAnnounced = 1000, kFirstInnerDomain = 1000, kLastInnerDomain = 2000;
+constexpr std::uint32_t kManyAnnounced = 256, kFirstInnerDomain = 1000, kLastInnerDomain = 2000;
 constexpr std::size_t kMostReports = 100;
 constexpr std::int64_t kReceiveBuffer = 1 << 20;  // bytes; Cyclone asks for as many
 
@@ -47,6 +47,8 @@ class Reports {
 [[noreturn]] void refuse(const DdsConfig& config, const std::string& what, dds_return_t code) {
   std::string reason = what + ": " + dds_strretcode(code);
   for (const std::string& line : Reports::all().take()) reason += "; " + line;
+  if (reason.find("free participant index") != std::string::npos)
+    reason += "; robots of this host: at most " + std::to_string(config.robots_per_host);
   throw InputError("DDS domain " + std::to_string(config.domain), 0, reason);
 }
 
@@ -82,14 +84,19 @@ dds_domainid_t domain_number(DdsEntity domain) {
 /// What a reader of announcements knows, each passed to `visit`.
 template <class Announcement, class Visit>
 void visit_announced(DdsEntity reader, const Visit& visit) {
-  std::vector<void*> samples(kMostAnnounced, nullptr);
-  std::vector<dds_sample_info_t> infos(kMostAnnounced);
-  const dds_return_t count =
-      dds_read_mask(reader, samples.data(), infos.data(), kMostAnnounced, kMostAnnounced,
-                    DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE);
-  for (std::size_t k = 0; count > 0 && k < static_cast<std::size_t>(count); ++k)
-    if (infos[k].valid_data) visit(*static_cast<const Announcement*>(samples[k]));
-  if (count > 0) dds_return_loan(reader, samples.data(), count);
+  constexpr std::uint32_t kAlive = DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE;
+  for (std::uint32_t most = kManyAnnounced;; most *= 2) {
+    std::vector<void*> samples(most, nullptr);
+    std::vector<dds_sample_info_t> infos(most);
+    const dds_return_t count = dds_read_mask(reader, samples.data(), infos.data(), most, most, kAlive);
+    if (count <= 0) return;
+    const auto read = static_cast<std::size_t>(count);
+    const bool is_all = read < most;
+    for (std::size_t k = 0; is_all && k < read; ++k)
+      if (infos[k].valid_data) visit(*static_cast<const Announcement*>(samples[k]));
+    dds_return_loan(reader, samples.data(), count);
+    if (is_all) return;
+  }
 }
 
 std::array<std::uint8_t, 16> bytes_of(const dds_guid_t& guid) {

@@ -82,6 +82,8 @@ DdsReader::Take TeamChannel::receiver() {
     auto message = decode_team_message(sample.cdr);
     if (!message)
       ++not_understood_;
+    else if (message->from == robot_)
+      ++of_namesakes_;
     else if (message->to.empty() || message->to == robot_)
       take_(std::move(*message));
   };

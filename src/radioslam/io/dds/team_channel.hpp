@@ -46,6 +46,8 @@ class TeamChannel {
   std::size_t others() const { return std::min(all_.matched(), all_reader_.matched()); }
   /// Samples that were no messages, and those that were lost.
   std::uint64_t not_understood() const { return not_understood_; }
+  /// Messages of another robot that goes by this one's name; they are not passed on.
+  std::uint64_t of_namesakes() const { return of_namesakes_; }
   std::uint64_t lost() const;
 
  private:
@@ -55,7 +57,7 @@ class TeamChannel {
   DdsDomain& domain_;
   std::string robot_;
   Take take_;
-  std::atomic<std::uint64_t> not_understood_ = 0;
+  std::atomic<std::uint64_t> not_understood_ = 0, of_namesakes_ = 0;
   DdsWriter digest_, all_;
   std::map<std::string, std::unique_ptr<DdsWriter>> to_;
   DdsReader digest_reader_, all_reader_, own_reader_;  // last, as they call back
