@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -13,7 +14,8 @@
 namespace radioslam {
 namespace {
 
-constexpr std::uint32_t kManyAnnounced = 256, kFirstInnerDomain = 1000, kLastInnerDomain = 2000;
+constexpr std::uint32_t kFirstInnerDomain = 1000, kLastInnerDomain = 2000;
+constexpr std::size_t kBatch = 32;  // announcements taken at once
 constexpr std::size_t kMostReports = 100;
 constexpr std::int64_t kReceiveBuffer = 1 << 20;  // bytes; Cyclone asks for as many
 
@@ -81,21 +83,34 @@ dds_domainid_t domain_number(DdsEntity domain) {
   return number;
 }
 
-/// What a reader of announcements knows, each passed to `visit`.
-template <class Announcement, class Visit>
-void visit_announced(DdsEntity reader, const Visit& visit) {
-  constexpr std::uint32_t kAlive = DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE;
-  for (std::uint32_t most = kManyAnnounced;; most *= 2) {
-    std::vector<void*> samples(most, nullptr);
-    std::vector<dds_sample_info_t> infos(most);
-    const dds_return_t count = dds_read_mask(reader, samples.data(), infos.data(), most, most, kAlive);
-    if (count <= 0) return;
-    const auto read = static_cast<std::size_t>(count);
-    const bool is_all = read < most;
-    for (std::size_t k = 0; is_all && k < read; ++k)
-      if (infos[k].valid_data) visit(*static_cast<const Announcement*>(samples[k]));
-    dds_return_loan(reader, samples.data(), count);
-    if (is_all) return;
+void free_contents(dds_builtintopic_participant_t& announced) { dds_delete_qos(announced.qos); }
+
+void free_contents(dds_builtintopic_endpoint_t& announced) {
+  dds_free(announced.topic_name);
+  dds_free(announced.type_name);
+  dds_delete_qos(announced.qos);
+}
+
+/// Takes what has been announced since the last time; `made` gets what is there, `gone` the handle of what is
+/// not. The memory is not Cyclone's: loans whose size grew between reads have damaged the heap (0.10.2).
+template <class Announcement, class Made, class Gone>
+void take_announced(DdsEntity reader, const Made& made, const Gone& gone) {
+  constexpr std::uint32_t kAll = DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ANY_INSTANCE_STATE;
+  for (;;) {
+    std::array<Announcement, kBatch> announced{};
+    std::array<void*, kBatch> pointers{};
+    std::array<dds_sample_info_t, kBatch> infos{};
+    std::transform(announced.begin(), announced.end(), pointers.begin(),
+                   [](Announcement& one) { return &one; });
+    const dds_return_t count = dds_take_mask(reader, pointers.data(), infos.data(), kBatch, kBatch, kAll);
+    for (std::size_t k = 0; count > 0 && k < static_cast<std::size_t>(count); ++k) {
+      if (infos[k].instance_state != DDS_ALIVE_INSTANCE_STATE)
+        gone(infos[k].instance_handle);
+      else if (infos[k].valid_data)
+        made(infos[k].instance_handle, announced[k]);
+    }
+    for (Announcement& one : announced) free_contents(one);
+    if (count < static_cast<dds_return_t>(kBatch)) return;
   }
 }
 
@@ -130,18 +145,26 @@ void read_qos(const dds_qos_t* qos, DdsEndpoint& endpoint) {
   }
 }
 
-std::vector<DdsEndpoint> endpoints(DdsEntity reader, const std::array<std::uint8_t, 16>& own) {
-  std::vector<DdsEndpoint> found;
-  visit_announced<dds_builtintopic_endpoint_t>(reader, [&](const dds_builtintopic_endpoint_t& announced) {
-    DdsEndpoint endpoint;
-    endpoint.participant = bytes_of(announced.participant_key);
-    endpoint.topic = announced.topic_name;
-    endpoint.type = announced.type_name;
-    endpoint.is_own = endpoint.participant == own;
-    read_qos(announced.qos, endpoint);
-    found.push_back(std::move(endpoint));
-  });
-  return found;
+void take_endpoints(DdsEntity reader, const std::array<std::uint8_t, 16>& own,
+                    std::map<std::uint64_t, DdsEndpoint>& known) {
+  take_announced<dds_builtintopic_endpoint_t>(
+      reader,
+      [&](std::uint64_t handle, const dds_builtintopic_endpoint_t& announced) {
+        DdsEndpoint endpoint;
+        endpoint.participant = bytes_of(announced.participant_key);
+        endpoint.topic = announced.topic_name;
+        endpoint.type = announced.type_name;
+        endpoint.is_own = endpoint.participant == own;
+        read_qos(announced.qos, endpoint);
+        known[handle] = std::move(endpoint);
+      },
+      [&](std::uint64_t handle) { known.erase(handle); });
+}
+
+std::vector<DdsEndpoint> values(const std::map<std::uint64_t, DdsEndpoint>& known) {
+  std::vector<DdsEndpoint> endpoints;
+  for (const auto& [handle, endpoint] : known) endpoints.push_back(endpoint);
+  return endpoints;
 }
 
 }  // namespace
@@ -199,17 +222,24 @@ std::vector<std::string> DdsDomain::take_notes() {
   return notes;
 }
 
-std::vector<DdsEndpoint> DdsDomain::writers() const { return endpoints(all_writers_, guid_); }
+std::vector<DdsEndpoint> DdsDomain::writers() {
+  take_endpoints(all_writers_, guid_, known_writers_);
+  return values(known_writers_);
+}
 
-std::vector<DdsEndpoint> DdsDomain::readers() const { return endpoints(all_readers_, guid_); }
+std::vector<DdsEndpoint> DdsDomain::readers() {
+  take_endpoints(all_readers_, guid_, known_readers_);
+  return values(known_readers_);
+}
 
-std::size_t DdsDomain::others() const {
-  std::size_t count = 0;
-  visit_announced<dds_builtintopic_participant_t>(all_participants_,
-                                                  [&](const dds_builtintopic_participant_t& announced) {
-                                                    if (bytes_of(announced.key) != guid_) ++count;
-                                                  });
-  return count;
+std::size_t DdsDomain::others() {
+  take_announced<dds_builtintopic_participant_t>(
+      all_participants_,
+      [&](std::uint64_t handle, const dds_builtintopic_participant_t& announced) {
+        if (bytes_of(announced.key) != guid_) others_.insert(handle);
+      },
+      [&](std::uint64_t handle) { others_.erase(handle); });
+  return others_.size();
 }
 
 }  // namespace radioslam

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,6 +15,7 @@ namespace radioslam {
 
 using DdsEntity = std::int32_t;  ///< Cyclone's handle
 
+/// Not to be used by several threads at once, but for its writers and readers.
 class DdsDomain {
  public:
   /// Refuses (InputError) what Cyclone refuses, with its reasons.
@@ -29,10 +30,10 @@ class DdsDomain {
   std::vector<std::string> take_notes();
 
   /// All that are announced, own ones included.
-  std::vector<DdsEndpoint> writers() const;
-  std::vector<DdsEndpoint> readers() const;
+  std::vector<DdsEndpoint> writers();
+  std::vector<DdsEndpoint> readers();
   /// Participants besides this one.
-  std::size_t others() const;
+  std::size_t others();
 
   DdsEntity participant() const { return participant_; }
 
@@ -42,6 +43,8 @@ class DdsDomain {
   DdsEntity domain_ = 0, participant_ = 0;
   DdsEntity all_participants_ = 0, all_writers_ = 0, all_readers_ = 0;  ///< readers of what is announced
   std::array<std::uint8_t, 16> guid_{};
+  std::map<std::uint64_t, DdsEndpoint> known_writers_, known_readers_;  ///< by Cyclone's handles
+  std::set<std::uint64_t> others_;
   std::vector<std::string> pending_;
   std::set<std::string> known_;  ///< all notes given
 };
