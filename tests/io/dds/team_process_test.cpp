@@ -1,5 +1,6 @@
 // Robots as processes of their own, one of which is killed.
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -45,6 +46,7 @@ pid_t start_echo() {
   ::setenv(kDomainVariable, std::to_string(test_domain()).c_str(), 1);
   const pid_t child = ::fork();
   if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::execl("/proc/self/exe", "io_dds_tests", "--gtest_also_run_disabled_tests", "--gtest_brief=1",
             "--gtest_filter=TeamProcess.DISABLED_Echo", nullptr);
     ::_exit(127);
