@@ -3,6 +3,7 @@
 #include <dds/dds.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <random>
 
 #include "io/dds/dds_samples.hpp"
@@ -231,11 +232,22 @@ TEST(DdsConfig, WhatCycloneRefusesIsRefusedWithItsReason) {
   expect_refusal([&] { const DdsDomain domain(config); }, 0, "the domain must be at most 232");
 }
 
+/// In a process of its own, which checks no leaks: Cyclone loses 240 bytes when it finds no free number.
 TEST(DdsConfig, MoreRobotsThanAreLookedForAtAnAddressAreRefused) {
-  DdsConfig config = test_config();
-  config.robots_per_host = 2;
-  const DdsDomain a(config), b(config);
-  expect_refusal([&] { const DdsDomain c(config); }, 0, "robots of this host: at most 2");
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto enter_three_times = [] {
+    DdsConfig config = test_config();
+    config.robots_per_host = 2;
+    const DdsDomain a(config), b(config);
+    try {
+      const DdsDomain c(config);
+    } catch (const InputError& error) {
+      std::fputs(error.what(), stderr);
+      ::_exit(2);
+    }
+    ::_exit(0);
+  };
+  EXPECT_EXIT(enter_three_times(), testing::ExitedWithCode(2), "robots of this host: at most 2");
 }
 
 TEST(DdsConfig, ManyTopicsAreAllKnown) {
