@@ -118,10 +118,10 @@ class Agent {
   std::map<std::string, CloudWant> cloud_wants_;
   std::optional<Stamp> digest_sent_, own_sent_, asked_;
   std::unique_ptr<AgentEstimate> estimate_;
-  std::map<std::string, std::uint64_t> estimated_;  ///< records that the estimate was told, by robot
+  std::map<std::string, std::uint64_t> estimated_;  ///< records that the estimate has, by robot
   std::optional<SolutionMessage> taken_;
-  bool has_news_ = true;       ///< that the estimate was not told
-  bool has_solution_ = false;  ///< that others were not told
+  bool has_news_ = true;       ///< that the estimate does not have
+  bool has_solution_ = false;  ///< that others do not have
   std::vector<TeamEvent> events_;
 };
 
