@@ -26,7 +26,7 @@ std::string chunks(const std::string& robot, std::uint32_t life, std::uint64_t f
 }
 
 TEST(KnownLogs, GrowWithoutGapsHoweverRecordsCome) {
-  KnownLogs logs("a", 1, {});
+  KnownLogs logs("a", 2, 1, {});
   EXPECT_TRUE(logs.accept("b", chunks("b", 3, 4, 8)).empty());
   EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 0}));
   EXPECT_EQ(logs.missing("b", 9).size(), 2U);
@@ -38,7 +38,7 @@ TEST(KnownLogs, GrowWithoutGapsHoweverRecordsCome) {
 }
 
 TEST(KnownLogs, OwnRecordsAreSentOnlyWhenTheyAreKept) {
-  KnownLogs logs("a", 1, {});
+  KnownLogs logs("a", 2, 1, {});
   logs.say(keyframe(0));
   EXPECT_EQ(logs.extents().at("a").records, 0U);
   const JournalChange change = logs.change();
@@ -50,7 +50,7 @@ TEST(KnownLogs, OwnRecordsAreSentOnlyWhenTheyAreKept) {
 }
 
 TEST(KnownLogs, NobodyCanSayWhatAnotherRobotSaid) {
-  KnownLogs logs("a", 1, {});
+  KnownLogs logs("a", 2, 1, {});
   EXPECT_TRUE(logs.accept("liar", chunks("b", 3, 0, 4, 9)).empty());  // nobody has heard b
   EXPECT_TRUE(logs.accept("b", chunks("b", 3, 0, 6)).empty());
   EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 6}));
@@ -64,7 +64,7 @@ TEST(KnownLogs, NobodyCanSayWhatAnotherRobotSaid) {
 }
 
 TEST(KnownLogs, NobodyCanSayWhatThisRobotSaid) {
-  KnownLogs logs("a", 1, {});
+  KnownLogs logs("a", 2, 1, {});
   logs.say(keyframe(0));
   logs.note_kept();
   EXPECT_TRUE(logs.accept("b", chunks("a", 1, 0, 1)).empty());
@@ -74,7 +74,7 @@ TEST(KnownLogs, NobodyCanSayWhatThisRobotSaid) {
 }
 
 TEST(KnownLogs, ANewLifeReplacesTheOldOneWhenTheRobotSaysIt) {
-  KnownLogs logs("a", 1, {});
+  KnownLogs logs("a", 2, 1, {});
   logs.accept("b", chunks("b", 3, 0, 6));
   logs.note_kept();
   EXPECT_FALSE(logs.accept("c", chunks("b", 4, 0, 2)).empty());
@@ -90,12 +90,41 @@ TEST(KnownLogs, ANewLifeReplacesTheOldOneWhenTheRobotSaysIt) {
 TEST(KnownLogs, GoOnFromWhatWasKept) {
   KnownLog own{1, {{0, keyframe(0)}, {1, keyframe(1)}}};
   KnownLog of_b{3, {{0, keyframe(0)}}};
-  KnownLogs logs("a", 1, {{"a", own}, {"b", of_b}});
+  KnownLogs logs("a", 2, 1, {{"a", own}, {"b", of_b}});
   EXPECT_EQ(logs.extents().at("a"), (LogExtent{1, 2}));
   EXPECT_EQ(logs.extents().at("b"), (LogExtent{3, 1}));
   EXPECT_TRUE(logs.change().empty());
-  KnownLogs anew("a", 2, {{"a", own}});
+  KnownLogs anew("a", 2, 2, {{"a", own}});
   EXPECT_EQ(anew.extents().at("a"), (LogExtent{2, 0}));
+}
+
+TEST(KnownLogs, ALogOfAnotherDimensionIsRefused) {
+  KnownLogs logs("a", 2, 1, {});
+  FactsRecord facts;
+  facts.dimension = 3;
+  facts.lidar_range_m = facts.lidar_view_rad = 1;
+  const KnownLog other{3, {{0, encode(Record(facts))}}};
+  EXPECT_FALSE(logs.accept("b", other.bytes("b", 0, 1, 1000).first).empty());
+  EXPECT_FALSE(logs.extents().contains("b"));
+}
+
+TEST(KnownLogs, RobotsThatNobodyHeardDoNotShutOutOthers) {
+  KnownLogs logs("a", 2, 1, {});
+  for (std::size_t k = 0; k < 2 * kMaxTeam; ++k)
+    logs.accept("liar", chunks("ghost" + std::to_string(k), 1, 0, 1));
+  EXPECT_LE(logs.extents().size(), kMaxTeam);
+  for (std::size_t k = 0; k < 20; ++k) {
+    const std::string robot = "r" + std::to_string(k);
+    EXPECT_TRUE(logs.accept(robot, chunks(robot, 1, 0, 3)).empty());
+    EXPECT_EQ(logs.extents().at(robot).records, 3U);
+  }
+}
+
+TEST(KnownLogs, AnOlderLifeDoesNotComeBack) {
+  KnownLogs logs("a", 2, 1, {});
+  logs.accept("b", chunks("b", 4, 0, 2));
+  EXPECT_FALSE(logs.accept("b", chunks("b", 3, 0, 6)).empty());
+  EXPECT_EQ(logs.extents().at("b"), (LogExtent{4, 2}));
 }
 
 }  // namespace

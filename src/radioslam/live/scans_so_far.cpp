@@ -7,12 +7,14 @@ namespace radioslam {
 namespace {
 
 constexpr double kUnknownVariance = 1e4;
+constexpr std::size_t kMostMissing = 64;  // keyframes that are numbered on
 
 }  // namespace
 
 void LoggedKeyframes::add(const KeyframeRecord& keyframe) {
   const SE3 before = said.empty() ? SE3() : said.back().pose;
-  while (!said.empty() && said.size() < keyframe.number) {  // missing: the motion is not known
+  const bool is_near = keyframe.number < said.size() + kMostMissing;
+  while (!said.empty() && is_near && said.size() < keyframe.number) {  // missing: the motion is not known
     said.push_back(said.back());
     steps.push_back({SE3(), kUnknownVariance * SE3::Jacobian::Identity()});
   }

@@ -6,6 +6,7 @@ namespace radioslam {
 namespace {
 
 constexpr std::size_t kMostRecordBytes = 8000;  // of a message
+constexpr std::size_t kMostClouds = 512;        // that a peer waits for
 constexpr double kDigest_s = 1, kOwn_s = 1, kAsk_s = 0.5;
 constexpr double kDigestPeers = 5;  // more of them are told less often
 
@@ -17,7 +18,7 @@ Agent::Agent(std::string name, int dimension, const RunParams& run, const AgentP
       dimension_(dimension),
       run_(run),
       params_(params),
-      logs_(name_, memory.life, memory.logs),
+      logs_(name_, dimension, memory.life, memory.logs),
       scans_(name_) {
   restart_estimate();
 }
@@ -31,7 +32,12 @@ void Agent::note_kept() {
 
 void Agent::hear(const std::string& peer, std::string_view bytes, Stamp now) {
   if (peer == name_) return;
-  if (!peers_.contains(peer) && peers_.size() >= kMaxTeam) return;
+  if (!peers_.contains(peer) && peers_.size() >= kMaxTeam) {
+    const auto silent = std::find_if(peers_.begin(), peers_.end(),
+                                     [now](const auto& of) { return !of.second.is_heard(now); });
+    if (silent == peers_.end()) return;
+    peers_.erase(silent);
+  }
   Peer& of = peers_.try_emplace(peer, Peer{.budget = ByteBudget(params_.bytes_s)}).first->second;
   auto decoded = decode_message(bytes);
   if (const auto* why = std::get_if<std::string>(&decoded)) return refuse(peer, *why, 1, now);
@@ -84,7 +90,8 @@ void Agent::take(const std::string& peer, const Want& want, Stamp now) {
 }
 
 void Agent::take(const std::string& peer, const CloudWant& want, Stamp) {
-  peers_.at(peer).clouds.insert(want.keyframes.begin(), want.keyframes.end());
+  std::set<Stamp>& clouds = peers_.at(peer).clouds;
+  if (clouds.size() < kMostClouds) clouds.insert(want.keyframes.begin(), want.keyframes.end());
 }
 
 void Agent::take(const std::string& peer, const CloudMessage& cloud, Stamp now) {
@@ -102,7 +109,10 @@ void Agent::done(const AnyGrownEstimate& result, Stamp now) {
 }
 
 void Agent::done(const ScanResult& result) {
-  for (std::string& record : scans_.done(result, estimate_->keyframes().at(name_))) say(std::move(record));
+  const auto own = estimate_->keyframes().find(name_);
+  const LoggedKeyframes none;
+  for (std::string& record : scans_.done(result, own == estimate_->keyframes().end() ? none : own->second))
+    say(std::move(record));
 }
 
 PublishedFrame Agent::frame_of(const std::string& robot) const {

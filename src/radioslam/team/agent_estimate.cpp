@@ -135,14 +135,16 @@ class AgentEstimateOf : public AgentEstimate {
     key = digest_of(key);
     is_made_ = true;
     made_key_ = key;
+    made_at_ = now;
     return EstimateJob{std::move(key), [request = *std::move(request), &params = params_] {
                          return AnyGrownEstimate(estimate<Pose>(request, params));
                        }};
   }
 
   std::vector<TeamEvent> take(const AnyGrownEstimate& result, Stamp now) override {
-    is_made_ = false;
     const auto& grown = std::get<GrownEstimate<Pose>>(result);
+    if (!is_made_ || grown.at != made_at_) return {};  // asked for before all began anew
+    is_made_ = false;
     const bool is_new = grown.solution != nullptr;
     known_.take(grown);
     if (!is_new) return {};
@@ -214,6 +216,7 @@ class AgentEstimateOf : public AgentEstimate {
   std::map<std::string, std::deque<Record>> waiting_;
   std::map<std::string, std::size_t> heard_;
   bool is_made_ = false;
+  Stamp made_at_;
   std::string last_key_, made_key_;  ///< of the last solution, and of the job that is made
 };
 

@@ -1,12 +1,20 @@
 #include "radioslam/team/known_logs.hpp"
 
 #include <algorithm>
+#include <optional>
+
+#include "radioslam/records/record_codec.hpp"
 
 namespace radioslam {
+namespace {
 
-KnownLogs::KnownLogs(std::string self, std::uint32_t life,
+constexpr char kFactsKind = 0;  // first byte of a record
+
+}  // namespace
+
+KnownLogs::KnownLogs(std::string self, int dimension, std::uint32_t life,
                      const std::vector<std::pair<std::string, KnownLog>>& kept)
-    : self_(std::move(self)) {
+    : self_(std::move(self)), dimension_(dimension) {
   for (const auto& [robot, log] : kept) {
     if (robot == self_) {
       if (log.life == life) own_ = log;
@@ -55,26 +63,48 @@ void KnownLogs::check_own(const LogChunk& chunk, Refusals& refusals) const {
 void KnownLogs::accept(const std::string& sender, const LogChunk& chunk, Refusals& refusals) {
   const std::string& robot = chunk.robot;
   const bool is_own = sender == robot;
-  if (!is_own && not_believed_[robot].contains(sender))
-    return void(++refusals["records of robot " + robot + ", which it denied"]);
+  if (const auto denied = not_believed_.find(robot);
+      !is_own && denied != not_believed_.end() && denied->second.contains(sender))
+    return void(++refusals["records that the robot itself denied"]);
+  if (is_of_other_dimension(chunk)) return void(++refusals["records of a mission in another dimension"]);
   const auto known = team_.robots().find(robot);
-  if (known == team_.robots().end() && team_.robots().size() >= kMaxTeam)
+  if (known == team_.robots().end() && !make_room(is_own))
     return void(++refusals["records of more robots than a team has"]);
   if (known != team_.robots().end() && known->second.life != chunk.life) {
-    if (!is_own && (heard_.contains(robot) || chunk.life < known->second.life))
-      return void(++refusals["records of another life of robot " + robot]);
+    if ((!is_own && heard_.contains(robot)) || chunk.life < known->second.life)
+      return void(++refusals["records of another life than the robot's last"]);
     replace(robot);
   }
   Acceptance accepted = team_.accept(chunk.bytes);
-  if (!accepted.is_whole() && is_own && team_.robots().contains(robot) && !passed_on_[robot].empty()) {
+  if (!accepted.is_whole() && is_own && passed_on_.contains(robot)) {
     replace(robot);
     accepted = team_.accept(chunk.bytes);
-    if (accepted.is_whole()) not_believed_[robot].merge(passed_on_[robot]);
+    if (accepted.is_whole()) not_believed_[robot].merge(passed_on_.extract(robot).mapped());
   }
-  if (!accepted.is_whole()) ++refusals[accepted.refusals.front()];
+  if (!accepted.is_whole()) ++refusals["records that contradict those known, or are not understood"];
+  if (!team_.robots().contains(robot)) return;
   if (is_own) heard_.insert(robot);
   if (!is_own && accepted.records > 0) passed_on_[robot].insert(sender);
   if (accepted.records > 0) extend(robot);
+}
+
+/// Whether there is room for a robot more. One that speaks for itself takes the place of one that never did.
+bool KnownLogs::make_room(bool is_own) {
+  if (team_.robots().size() < (is_own ? kMaxTeam : kMaxTeam / 2)) return true;
+  if (!is_own) return false;
+  for (const auto& [robot, log] : team_.robots())
+    if (!heard_.contains(robot)) {
+      replace(std::string(robot));
+      return true;
+    }
+  return false;
+}
+
+bool KnownLogs::is_of_other_dimension(const LogChunk& chunk) const {
+  return std::any_of(chunk.records.begin(), chunk.records.end(), [this](std::string_view bytes) {
+    const auto facts = bytes.empty() || bytes.front() != kFactsKind ? std::nullopt : decode_record(bytes);
+    return facts && std::get<FactsRecord>(*facts).dimension != dimension_;
+  });
 }
 
 std::vector<std::pair<std::uint64_t, std::uint64_t>> KnownLogs::missing(const std::string& robot,

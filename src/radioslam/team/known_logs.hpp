@@ -22,8 +22,10 @@ namespace radioslam {
 
 class KnownLogs {
  public:
-  /// `kept`: by robot and life, from the robot's journal.
-  KnownLogs(std::string self, std::uint32_t life, const std::vector<std::pair<std::string, KnownLog>>& kept);
+  /// `dimension`: of the mission; logs of another one are refused. `kept`: by robot and life, from the
+  /// robot's journal.
+  KnownLogs(std::string self, int dimension, std::uint32_t life,
+            const std::vector<std::pair<std::string, KnownLog>>& kept);
 
   /// The robot's own next record.
   void say(std::string record);
@@ -51,10 +53,13 @@ class KnownLogs {
 
   void accept(const std::string& sender, const LogChunk& chunk, Refusals& refusals);
   void check_own(const LogChunk& chunk, Refusals& refusals) const;
+  bool make_room(bool is_own);
+  bool is_of_other_dimension(const LogChunk& chunk) const;
   void replace(const std::string& robot);
   void extend(const std::string& robot);
 
   std::string self_;
+  int dimension_;
   KnownLog own_;
   TeamLog team_;
   std::map<std::string, LogExtent> extents_;  ///< of others: as known; of the robot itself: as kept

@@ -41,7 +41,9 @@ std::map<std::string, Want> Asking::wants(Stamp now, const std::string& self,
                                           const std::map<std::string, LogExtent>& extents,
                                           const std::map<std::string, Peer>& peers, const Missing& missing) {
   std::map<std::string, Want> wants;
-  for (const auto& [robot, most] : known_by(peers, self, now)) {
+  const std::map<std::string, LogExtent> known = known_by(peers, self, now);
+  std::erase_if(asked_, [&](const auto& of) { return !known.contains(of.first); });
+  for (const auto& [robot, most] : known) {
     const auto own = extents.find(robot);
     const bool is_other_life = own == extents.end() || own->second.life != most.life;
     if (!is_other_life && own->second.records >= most.records) continue;
