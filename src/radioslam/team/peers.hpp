@@ -39,14 +39,14 @@ class ByteBudget {
 };
 
 struct Peer {
-  std::optional<Stamp> heard;
-  std::map<std::string, LogExtent> knows;                    ///< as it last said
-  bool solves = true;                                        ///< as it last said
-  std::uint64_t sent_own = 0;                                ///< own records up to this number are sent
-  std::map<std::string, std::vector<WantedStretch>> wanted;  ///< by it, by robot
-  std::set<Stamp> clouds;                                    ///< wanted by it
-  ByteBudget budget;
-  std::map<std::string, std::size_t> refused;  ///< of what it sent, by reason
+  std::optional<Stamp> heard = {};
+  std::map<std::string, LogExtent> knows = {};                    ///< as it last said
+  bool solves = true;                                             ///< as it last said
+  std::uint64_t sent_own = 0;                                     ///< own records up to this number are sent
+  std::map<std::string, std::vector<WantedStretch>> wanted = {};  ///< by it, by robot
+  std::set<Stamp> clouds = {};                                    ///< wanted by it
+  ByteBudget budget{};
+  std::map<std::string, std::size_t> refused = {};  ///< of what it sent, by reason
 
   bool is_heard(Stamp now) const { return heard && seconds_between(*heard, now) <= kSilent_s; }
 };

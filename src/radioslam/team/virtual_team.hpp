@@ -54,11 +54,11 @@ struct TeamRun {
 struct VirtualTeamSetup {
   int dimension = 2;
   const RunParams& run;
-  AgentParams agent;
-  NetworkFaults network;
+  AgentParams agent = {};
+  NetworkFaults network = {};
   std::size_t solvers = kMaxTeam;  ///< the first robots; others take their solutions
-  std::function<std::unique_ptr<AgentStore>(const std::string&)> store;
-  std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of;
+  std::function<std::unique_ptr<AgentStore>(const std::string&)> store = {};
+  std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of = {};
 };
 
 /// Until every agent that runs knows all, or nothing more comes.

@@ -46,7 +46,7 @@ inline DdsConfig test_config() {
 }
 
 /// Waits until something is so; false if it is not after that many seconds.
-inline bool becomes_true(const std::function<bool()>& condition, double seconds = 20) {
+inline bool becomes_true(const std::function<bool()>& condition, double seconds = 90) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
