@@ -1,4 +1,4 @@
-# Installs the programs (radioslam-reproduce where it was built), the libraries and headers of all rooms but study, and a CMake package.
+# Installs the programs (radioslam-reproduce and radioslam-agent where they were built), the libraries and headers of all rooms but study, and a CMake package.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -7,7 +7,7 @@ install(TARGETS radioslam_settings ${rooms} EXPORT radioslamTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET radioslam_program)
   install(TARGETS radioslam_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(TARGETS radioslam_reproduce RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
+  install(TARGETS radioslam_reproduce radioslam_agent RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
 endif()
 install(DIRECTORY src/radioslam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
         PATTERN cli EXCLUDE PATTERN study EXCLUDE)

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -42,17 +43,57 @@ void send_output_to(const fs::path& path, int descriptor) {
 
 Outcome run(const std::vector<std::string>& arguments, const fs::path& folder,
             std::optional<Interruption> interruption) {
-  const TemporaryFolder output;
-  const pid_t child = fork();
-  if (child == 0) become_program(arguments, folder, output.path());
+  Started program(arguments, folder);
   if (interruption) {
     std::this_thread::sleep_for(std::chrono::duration<double>(interruption->after_s));
-    kill(child, interruption->signal);
+    program.signal(interruption->signal);
   }
+  return program.wait();
+}
+
+Started::Started(const std::vector<std::string>& arguments, const fs::path& folder)
+    : output_(std::make_unique<TemporaryFolder>()), process_(fork()) {
+  if (process_ == 0) become_program(arguments, folder, output_->path());
+}
+
+Started::~Started() {
+  if (!has_ended()) signal(SIGKILL);
+  wait();
+}
+
+bool Started::has_ended() {
   int status = 0;
-  waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(output.path() / "out"),
-          read_file(output.path() / "err")};
+  if (!status_ && waitpid(process_, &status, WNOHANG) == process_) status_ = status;
+  return status_.has_value();
+}
+
+void Started::signal(int number) const {
+  if (!status_) kill(process_, number);
+}
+
+bool Started::says(const std::string& text) {
+  for (;;) {
+    const bool ended = has_ended();
+    if (read_file(output_->path() / "out").find(text) != std::string::npos) return true;
+    if (ended) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+std::vector<int> Started::children() const {
+  const std::string process = std::to_string(process_);
+  std::istringstream list(read_file("/proc/" + process + "/task/" + process + "/children"));
+  return {std::istream_iterator<int>(list), {}};
+}
+
+Outcome Started::wait() {
+  if (!status_) {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    status_ = status;
+  }
+  return {WIFEXITED(*status_) ? WEXITSTATUS(*status_) : 128 + WTERMSIG(*status_),
+          read_file(output_->path() / "out"), read_file(output_->path() / "err")};
 }
 
 TemporaryFolder::TemporaryFolder() {

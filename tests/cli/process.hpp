@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,29 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+};
+
+/// A program that runs beside the test; it does not outlive it.
+class Started {
+ public:
+  Started(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  ~Started();
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+
+  void signal(int number) const;
+  /// Waits until the program has written this to its standard output; false if it ends before.
+  bool says(const std::string& text);
+  /// Its children's processes.
+  std::vector<int> children() const;
+  Outcome wait();
+
+ private:
+  bool has_ended();
+
+  std::unique_ptr<TemporaryFolder> output_;
+  int process_ = 0;
+  std::optional<int> status_;
 };
 
 std::string read_file(const std::filesystem::path& path);

@@ -18,6 +18,7 @@ void add_evaluate(CLI::App& program);
 void add_optimize(CLI::App& program);
 void add_similarity(CLI::App& program);
 void add_team(CLI::App& program);
+void add_agent(CLI::App& program);
 void add_import(CLI::App& program);
 void add_rendezvous(CLI::App& program);
 void add_reproduce(CLI::App& program);

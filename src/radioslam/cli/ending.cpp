@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <thread>
 
@@ -11,6 +12,8 @@
 
 namespace radioslam::cli {
 namespace {
+
+std::atomic<bool> g_concludes = false, g_is_to_conclude = false;
 
 bool is_ignored(int signal) {
   struct sigaction action {};
@@ -30,7 +33,9 @@ sigset_t ending_signals() {
 /// Runs in a thread of its own, which may lock, free memory and remove files; a signal handler may not.
 void wait_for_end(sigset_t signals) {
   int signal = 0;
-  if (sigwait(&signals, &signal) != 0) return;
+  do {
+    if (sigwait(&signals, &signal) != 0) return;
+  } while (g_concludes && !g_is_to_conclude.exchange(true));
   remove_unfinished_outputs();
   _exit(kInterrupted);
 }
@@ -46,5 +51,9 @@ void end_cleanly() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread(wait_for_end, signals).detach();
 }
+
+void conclude_on_signal() { g_concludes = true; }
+
+bool is_to_conclude() { return g_is_to_conclude; }
 
 }  // namespace radioslam::cli

@@ -8,4 +8,9 @@ namespace radioslam::cli {
 /// becomes a write error instead of a signal, and a failed RADIOSLAM_CHECK ends the program with kOurFailure.
 void end_cleanly();
 
+/// From now on the first of these signals only asks the command to come to its end, with all outputs; the
+/// second one ends the program as above.
+void conclude_on_signal();
+bool is_to_conclude();
+
 }  // namespace radioslam::cli

@@ -32,9 +32,9 @@ constexpr const char* kProgramFooter =
     "Exit status: 0 success; 1 internal error; 2 invalid command line or input; 130 interrupted.";
 
 constexpr AddCommand kCommands[] = {
-    add_simulate,   add_run,     add_team,       add_prune,     add_doctor,    add_log,
-    add_map,        add_poses,   add_evaluate,   add_import,    add_optimize,  add_aoa,
-    add_similarity, add_anchors, add_rendezvous, add_reproduce, add_parameters};
+    add_simulate, add_run,        add_team,    add_agent,      add_prune,     add_doctor,
+    add_log,      add_map,        add_poses,   add_evaluate,   add_import,    add_optimize,
+    add_aoa,      add_similarity, add_anchors, add_rendezvous, add_reproduce, add_parameters};
 
 void prepare(CLI::App& program, std::span<const AddCommand> commands) {
   program.name("radioslam");

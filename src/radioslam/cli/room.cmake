@@ -18,12 +18,13 @@ add_library(radioslam_cli STATIC
   cli/commands/command_poses.cpp
   cli/commands/command_prune.cpp
   cli/commands/command_rendezvous.cpp
-  cli/commands/command_reproduce.cpp
   cli/commands/command_run.cpp
   cli/commands/command_similarity.cpp
   cli/commands/command_simulate.cpp
   cli/team/command_team.cpp
   cli/team/network_options.cpp
+  cli/team/process_team.cpp
+  cli/team/team_output.cpp
   cli/commands/csi_channels.cpp
   cli/commands/distributed_optimization.cpp
   cli/commands/evaluated_estimate.cpp
@@ -31,6 +32,7 @@ add_library(radioslam_cli STATIC
   cli/commands/map_output.cpp
   cli/commands/mission_check.cpp
   cli/commands/mission_input.cpp
+  cli/commands/other_programs.cpp
   cli/commands/output_path_check.cpp
   cli/run_documents.cpp
   cli/recorded_drive.cpp
@@ -74,3 +76,17 @@ add_executable(radioslam_reproduce cli/reproduce/main.cpp cli/reproduce/command_
 target_link_libraries(radioslam_reproduce PRIVATE radioslam_cli radioslam_study radioslam_warnings)
 set_target_properties(radioslam_reproduce PROPERTIES
   OUTPUT_NAME radioslam-reproduce RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+
+# `radioslam agent` starts it. Apart, so that only programs that join a domain load Cyclone's library.
+add_library(radioslam_agent_process STATIC
+  cli/agent/agent_process.cpp
+  cli/agent/command_agent.cpp
+  cli/agent/inbox.cpp
+  cli/agent/outbox.cpp
+  cli/agent/paced_front_end.cpp
+  cli/agent/worker.cpp)
+target_link_libraries(radioslam_agent_process PUBLIC radioslam_cli radioslam_io_dds radioslam_team radioslam_pipeline PRIVATE radioslam_warnings)
+add_executable(radioslam_agent cli/agent/main.cpp)
+target_link_libraries(radioslam_agent PRIVATE radioslam_agent_process radioslam_warnings)
+set_target_properties(radioslam_agent PROPERTIES
+  OUTPUT_NAME radioslam-agent RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

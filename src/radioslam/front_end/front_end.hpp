@@ -5,7 +5,8 @@
 //   scans     are tracked with what else moves with them (odometry/scan_front_end.hpp); without a scanner the
 //             recorded odometry is the robot's
 //   log       keyframes and what was measured from them, as they become final (records/log_builder.hpp)
-//   amend     what the robot changes its mind about: an IMU that turns out to agree or not, the motion smoothed
+//   amend     what the robot changes its mind about: an IMU that turns out to agree or not, the motion
+//   smoothed
 //             with it, at the end all that hindsight makes of it
 // Causal, and the same however the samples are ordered within kLate_s.
 #pragma once
@@ -72,6 +73,9 @@ class FrontEnd {
   /// In the frame of the odometry.
   std::optional<StampedPose<SE3>> latest() const { return latest_; }
   const std::vector<StampedPose<SE3>>& keyframes() const { return log_.said(); }
+  /// Whether its poses are those of scans, and these.
+  bool follows_scans() const { return follows_scans_; }
+  const ScanFrontEnd& scans() const { return scans_; }
   /// So far, in time order.
   std::vector<FrontEndEvent> events() const;
   /// Measurements that no record says: outside the odometry, too late, or beyond what a record holds.

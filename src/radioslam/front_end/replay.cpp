@@ -2,59 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <utility>
 
 #include "radioslam/base/parallel.hpp"
+#include "radioslam/front_end/recorded_samples.hpp"
 
 namespace radioslam {
 namespace {
-
-/// One kind of a robot's recordings.
-struct Stream {
-  std::vector<Stamp> stamps;  ///< at which they are known, in order
-  std::function<Sample(std::size_t)> sample;
-};
-
-/// Of those that are kept, in the order in which they are known.
-template <class Items, class Keep>
-Stream stream_of(const Items& items, const Keep& keep) {
-  std::vector<std::pair<Stamp, std::size_t>> kept;
-  for (std::size_t k = 0; k < items.size(); ++k)
-    if (keep(items[k])) kept.emplace_back(stamp_of(Sample(items[k])), k);
-  std::sort(kept.begin(), kept.end());
-  std::vector<Stamp> stamps;
-  for (const auto& [stamp, k] : kept) stamps.push_back(stamp);
-  return {std::move(stamps),
-          [&items, kept = std::move(kept)](std::size_t n) { return Sample(items[kept[n].second]); }};
-}
-
-template <class Items>
-Stream stream_of(const Items& items) {
-  return stream_of(items, [](const auto&) { return true; });
-}
-
-/// In the order in which samples of one stamp come.
-std::vector<Stream> streams_of(const Mission& mission, RobotIndex self) {
-  const Robot& robot = mission.robots[self.index()];
-  const LidarLog& scans = robot.lidar;
-  return {stream_of(robot.odometry),
-          stream_of(robot.inertial),
-          {scans.stamps,
-           [&scans](std::size_t k) {
-             return Sample(ScanSample{scans.stamps[k], scans.read(k)});
-           }},
-          stream_of(mission.ranges,
-                    [&](const auto& range) { return range.i.robot == self || range.j.robot == self; }),
-          stream_of(mission.aoa_measurements, [&](const auto& angles) { return angles.receiver == self; }),
-          stream_of(robot.fixes),
-          stream_of(robot.wifi),
-          stream_of(mission.matches,
-                    [&](const auto& match) { return match.robot_i == self || match.robot_j == self; })};
-}
 
 constexpr ReplayWindow kWhole{
     {std::numeric_limits<std::int64_t>::min()}, {std::numeric_limits<std::int64_t>::max()}, true};
@@ -80,10 +37,8 @@ ReplayedRobot replay(const Mission& mission, RobotIndex self, const ReplayWindow
                      const ScanParams& scans, const KeyframeParams& keyframes, CloudStore& clouds,
                      const Progress& progress) {
   const Robot& robot = mission.robots[self.index()];
-  FrontEnd front_end(mission, self, {!robot.odometry.empty(), !robot.inertial.empty(), !robot.lidar.empty()},
-                     scans, keyframes, clouds);
-  const std::vector<Stream> streams = streams_of(mission, self);
-  std::vector<std::size_t> next(streams.size(), 0);
+  FrontEnd front_end(mission, self, sources_of(robot), scans, keyframes, clouds);
+  RecordedSamples samples(mission, self);
   ReplayedRobot replayed;
   replayed.log.robot = robot.id;
   Stamp now;
@@ -95,35 +50,24 @@ ReplayedRobot replay(const Mission& mission, RobotIndex self, const ReplayWindow
       replayed.known.push_back(now);
     }
   };
-  std::size_t total = 0, done = 0;
-  for (const Stream& stream : streams) total += stream.stamps.size();
-  for (; done < total; ++done) {
-    std::size_t first = streams.size();
-    for (std::size_t s = 0; s < streams.size(); ++s)
-      if (next[s] < streams[s].stamps.size() &&
-          (first == streams.size() || streams[s].stamps[next[s]] < streams[first].stamps[next[first]]))
-        first = s;
-    const Stamp stamp = streams[first].stamps[next[first]];
-    const std::size_t number = next[first]++;
-    if (stamp < window.begin || window.end < stamp) continue;
-    Sample sample = streams[first].sample(number);
-    now = stamp;
+  samples.skip_before(window.begin);
+  while (const auto stamp = samples.next()) {
+    if (window.end < *stamp) break;
+    Sample sample = samples.take();
+    now = *stamp;
     const auto begin = Clock::now();
     front_end.add(std::move(sample));
     take(begin);
-    report_progress(progress, "replay " + robot.id, static_cast<double>(done) / static_cast<double>(total));
+    report_progress(progress, "replay " + robot.id, samples.share_taken());
   }
   const auto begin = Clock::now();
   if (!window.is_finished) now = window.end;
   replayed.tracked = front_end.finish();
-  replayed.follows_scans = replayed.tracked.has_value();
+  replayed.follows_scans = front_end.follows_scans();
   if (window.is_finished) take(begin);
   number_keyframes(front_end, replayed.poses);
-  if (window.is_finished && replayed.tracked && !replayed.tracked->track.poses.empty()) {
-    ScanTrajectory track;
-    track.poses = replayed.tracked->track.poses;
-    track.is_level = replayed.tracked->track.is_level;
-    front_end.amend(odometry_from_scans(robot, track, scans.stage));
+  if (window.is_finished && replayed.tracked) {
+    amend_with_hindsight(front_end, *replayed.tracked, robot, scans.stage);
     take(begin);
   }
   replayed.events = front_end.events();

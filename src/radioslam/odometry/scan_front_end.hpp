@@ -58,6 +58,8 @@ class ScanFrontEnd {
 
   /// As known now; nothing before the first scan is registered.
   const ScanTrajectory* track() const;
+  /// What scanner it is; nothing before that.
+  const std::optional<ScannerTraits>& traits() const { return traits_; }
   /// The poses again, where the robot has changed its mind since the last call.
   std::optional<ScanTrajectory> revised();
 

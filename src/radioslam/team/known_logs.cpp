@@ -36,6 +36,16 @@ KnownLogs::KnownLogs(std::string self, int dimension, std::uint32_t life,
   extents_[self_] = {life, own_.records.size()};
 }
 
+std::vector<RobotLog> KnownLogs::whole() const {
+  std::vector<RobotLog> logs;
+  for (const auto& [robot, extent] : extents_) {
+    RobotLog& whole = logs.emplace_back(RobotLog{robot, {}});
+    for (const auto& [number, record] : log(robot).records)
+      if (number < extent.records) whole.records.push_back(record);
+  }
+  return logs;
+}
+
 void KnownLogs::say(std::string record) { own_.records.emplace(own_.records.size(), std::move(record)); }
 
 std::map<std::string, std::size_t> KnownLogs::accept(const std::string& sender, std::string_view chunks) {

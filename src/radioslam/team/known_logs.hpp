@@ -37,6 +37,8 @@ class KnownLogs {
   const KnownLog& log(const std::string& robot) const {
     return robot == self_ ? own_ : team_.robots().at(robot);
   }
+  /// Without gaps, too.
+  std::vector<RobotLog> whole() const;
   /// First and last number of the stretches before `end` that are not known, at most 64.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> missing(const std::string& robot,
                                                                std::uint64_t end) const;

@@ -32,6 +32,15 @@ Stamp begin_of(const Mission& mission) {
   return begin.value_or(Stamp{});
 }
 
+Stamp end_of(const Mission& mission) {
+  Stamp end = begin_of(mission);
+  for (const Robot& robot : mission.robots) {
+    if (!robot.odometry.empty()) end = std::max(end, robot.odometry.back().stamp);
+    if (!robot.lidar.stamps.empty()) end = std::max(end, robot.lidar.stamps.back());
+  }
+  return end;
+}
+
 std::vector<ScriptedRobot> scripted_robots(const Mission& mission, const RunParams& params,
                                            const std::map<std::string, Stamp>& killed) {
   const Stamp begin = begin_of(mission), end{std::numeric_limits<std::int64_t>::max()};

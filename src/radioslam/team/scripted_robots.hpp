@@ -33,6 +33,8 @@ inline constexpr double kRestart_s = 2;
 
 /// The first odometry or scan of the mission.
 Stamp begin_of(const Mission& mission);
+/// The last one.
+Stamp end_of(const Mission& mission);
 
 /// In parallel. `killed`: by robot, when its program ends without notice; kRestart_s later another begins.
 std::vector<ScriptedRobot> scripted_robots(const Mission& mission, const RunParams& params,

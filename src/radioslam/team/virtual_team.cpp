@@ -70,12 +70,7 @@ std::size_t let_say(Host& host, const ScriptedRun& run, Stamp now) {
 /// What the agent knows in the end.
 void conclude(const Host& host, TeamRun& run) {
   if (!host.agent) return;
-  auto& logs = run.logs[host.script->name];
-  for (const auto& [robot, extent] : host.agent->logs().extents()) {
-    RobotLog& log = logs.emplace_back(RobotLog{robot, {}});
-    for (const auto& [number, record] : host.agent->logs().log(robot).records)
-      if (number < extent.records) log.records.push_back(record);
-  }
+  run.logs[host.script->name] = host.agent->logs().whole();
   run.extents[host.script->name] = host.agent->logs().extents();
 }
 

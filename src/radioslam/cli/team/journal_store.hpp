@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "radioslam/io/journal/journal.hpp"
 #include "radioslam/team/virtual_team.hpp"
@@ -16,6 +18,7 @@ class JournalStore : public AgentStore {
 
   AgentMemory memory() const override { return {journal_.life(), journal_.logs()}; }
   void commit(const JournalChange& change) override { journal_.commit(change); }
+  std::optional<std::string> state(std::string_view key) const { return journal_.state(key); }
 
  private:
   Journal journal_;

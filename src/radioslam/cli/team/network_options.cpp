@@ -31,12 +31,17 @@ std::pair<std::string, double> robot_and_time(const std::string& option, const s
   if (at == std::string::npos)
     throw InputError(option, 0, "'" + text + "' is not a robot and a time, as in b" + separator + "120");
   const std::string id = text.substr(0, at);
-  for (const Robot& robot : mission.robots)
-    if (robot.id == id) return {id, number_of(option, text.substr(at + 1))};
-  throw InputError(option, 0, "the mission has no robot '" + id + "'");
+  robot_named(id, mission, option);
+  return {id, number_of(option, text.substr(at + 1))};
 }
 
 }  // namespace
+
+RobotIndex robot_named(const std::string& id, const Mission& mission, const std::string& option) {
+  for (std::size_t r = 0; r < mission.robots.size(); ++r)
+    if (mission.robots[r].id == id) return RobotIndex(r);
+  throw InputError(option, 0, "the mission has no robot '" + id + "'");
+}
 
 NetworkFaults faults_of(const NetworkOptions& options, const Mission& mission, Stamp begin) {
   NetworkFaults faults;

@@ -18,6 +18,9 @@ struct NetworkOptions {
   std::uint64_t seed = 1;
 };
 
+/// The mission's robot of that name. Throws InputError naming the option.
+RobotIndex robot_named(const std::string& id, const Mission& mission, const std::string& option);
+
 /// Times are seconds from `begin` on. Throws InputError naming the option.
 NetworkFaults faults_of(const NetworkOptions& options, const Mission& mission, Stamp begin);
 /// When which robots' programs are killed.

@@ -80,6 +80,8 @@ std::size_t DdsWriter::matched() const {
   return status.current_count;
 }
 
+bool DdsWriter::is_acknowledged() const { return dds_wait_for_acks(writer_, 0) == DDS_RETCODE_OK; }
+
 DdsReader::DdsReader(DdsDomain& domain, const std::string& topic, const std::string& type, const DdsQos& qos,
                      Take take)
     : take_(std::move(take)) {

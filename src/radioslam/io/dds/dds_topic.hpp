@@ -35,6 +35,8 @@ class DdsWriter {
   [[nodiscard]] bool write(std::string_view cdr);
   /// Readers of others that match.
   std::size_t matched() const;
+  /// Whether all that was written has arrived at the readers that asked for reliability.
+  bool is_acknowledged() const;
 
  private:
   DdsEntity topic_ = 0, writer_ = 0;

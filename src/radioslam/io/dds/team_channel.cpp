@@ -14,6 +14,7 @@ constexpr const char* kDigestTopic = "rt/radioslam/digest";
 constexpr const char* kTeamTopic = "rt/radioslam/team";
 constexpr const char* kToTopic = "rt/radioslam/to/";
 constexpr std::int32_t kKept = 64;
+constexpr std::size_t kAtOnce = 32;  // of these, to one robot
 constexpr std::size_t kMostPadding = 3;
 
 DdsQos reliable() {
@@ -89,15 +90,26 @@ DdsReader::Take TeamChannel::receiver() {
   };
 }
 
-DdsWriter& TeamChannel::writer_to(const std::string& robot) {
-  auto& writer = to_[robot];
-  if (!writer) writer = std::make_unique<DdsWriter>(domain_, topic_to(robot), kType, reliable());
-  return *writer;
+TeamChannel::Link& TeamChannel::link_to(const std::string& robot) {
+  Link& link = to_[robot];
+  if (!link.writer) link.writer = std::make_unique<DdsWriter>(domain_, topic_to(robot), kType, reliable());
+  return link;
+}
+
+bool TeamChannel::has_room(const std::string& robot) {
+  Link& link = link_to(robot);
+  if (link.written < kAtOnce) return true;
+  if (!link.writer->is_acknowledged() && std::chrono::steady_clock::now() - link.since < kPatience)
+    return false;
+  link.written = 0;
+  return true;
 }
 
 bool TeamChannel::send(const std::string& to, std::uint8_t kind, std::string_view octets, Delivery delivery) {
-  DdsWriter& writer = !to.empty() ? writer_to(to) : delivery == Delivery::kReliable ? all_ : digest_;
+  Link* link = to.empty() ? nullptr : &link_to(to);
+  DdsWriter& writer = link ? *link->writer : delivery == Delivery::kReliable ? all_ : digest_;
   if (writer.matched() == 0) return false;
+  if (link && link->written++ == 0) link->since = std::chrono::steady_clock::now();
   return writer.write(encode_cdr({robot_, to, kind, std::string(octets)}));
 }
 

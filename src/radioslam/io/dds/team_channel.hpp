@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -42,6 +43,9 @@ class TeamChannel {
   /// Messages to one robot are always reliable.
   [[nodiscard]] bool send(const std::string& to, std::uint8_t kind, std::string_view octets,
                           Delivery delivery = Delivery::kReliable);
+  /// Whether another message to the robot would push out none that is still on its way. A robot that does not
+  /// acknowledge what it gets, since it has ended, has room again after kPatience.
+  bool has_room(const std::string& robot);
   /// Robots that this one reaches, and that reach it.
   std::size_t others() const { return std::min(all_.matched(), all_reader_.matched()); }
   /// Samples that were no messages, and those that were lost.
@@ -51,15 +55,23 @@ class TeamChannel {
   std::uint64_t lost() const;
 
  private:
+  static constexpr std::chrono::milliseconds kPatience{300};
+
+  struct Link {
+    std::unique_ptr<DdsWriter> writer;
+    std::size_t written = 0;  ///< since all had arrived, or patience ended
+    std::chrono::steady_clock::time_point since{};
+  };
+
   DdsReader::Take receiver();
-  DdsWriter& writer_to(const std::string& robot);
+  Link& link_to(const std::string& robot);
 
   DdsDomain& domain_;
   std::string robot_;
   Take take_;
   std::atomic<std::uint64_t> not_understood_ = 0, of_namesakes_ = 0;
   DdsWriter digest_, all_;
-  std::map<std::string, std::unique_ptr<DdsWriter>> to_;
+  std::map<std::string, Link> to_;
   DdsReader digest_reader_, all_reader_, own_reader_;  // last, as they call back
 };
 

@@ -1,0 +1,81 @@
+// A robot's agent as a program of its own: the agent in the thread that calls, its front end, a worker for
+// its jobs, and DDS in threads of theirs, which only put into an inbox.
+//
+// It ends when the mission is over and, for kQuiet_s of the mission, it has learned nothing and all that it
+// hears knew the same, at the latest kSettle_s after; robots of the mission that were never heard are waited
+// for that long. A machine that is busy gets some seconds of its own in either case.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/cli/agent/outbox.hpp"
+#include "radioslam/cli/agent/paced_front_end.hpp"
+#include "radioslam/cli/agent/worker.hpp"
+#include "radioslam/io/dds/dds_config.hpp"
+#include "radioslam/team/virtual_team.hpp"
+
+namespace radioslam::cli {
+
+struct AgentProcessSetup {
+  const Mission& mission;
+  RobotIndex self;
+  const RunParams& run;
+  DdsConfig dds;
+  AgentParams agent;
+  std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of;
+  std::function<void(const std::string& robot, const TeamEvent&)> say;  ///< what the user should know
+  std::function<bool()> is_to_conclude;  ///< with what is known; the recording ends there
+};
+
+class AgentProcess {
+ public:
+  static constexpr double kQuiet_s = 15, kSettle_s = 180;
+
+  /// Keeps references.
+  AgentProcess(const AgentProcessSetup& setup, AgentStore& store, const MissionClock& clock);
+  ~AgentProcess();
+
+  /// What this one agent knows in the end, and how it came to know it.
+  TeamRun live();
+
+ private:
+  void take(Arrival arrival, Stamp now);
+  void take(FrontEndNews news, Stamp now);
+  void step(Stamp now);
+  void commit();
+  void say(TeamEvent event);
+  void say_once(bool is_so, const std::string& what, Stamp now);
+  void look_around(Stamp now);
+  void observe(Stamp now);
+  void note_changes();
+  bool is_settled(Stamp now) const;
+  std::uint64_t known_records() const;
+
+  const AgentProcessSetup& setup_;
+  AgentStore& store_;
+  const MissionClock& clock_;
+  std::string name_;
+  std::optional<KnownLog> before_;
+  Agent agent_;
+  Inbox inbox_;
+  DdsDomain domain_;
+  TeamChannel channel_;
+  Outbox outbox_;
+  PacedFrontEnd front_end_;
+  Worker worker_;
+  TeamRun run_;
+  std::set<std::string> said_;
+  std::optional<Stamp> committed_, observed_, looked_;
+  std::optional<SteadyClock::time_point> committed_at_,
+      over_;  ///< the latter: the recording, and the mission
+  Stamp changed_;
+  SteadyClock::time_point changed_at_;
+  std::uint64_t known_ = 0;  ///< records and clouds
+  bool is_recording_over_ = false, is_concluding_ = false;
+};
+
+}  // namespace radioslam::cli

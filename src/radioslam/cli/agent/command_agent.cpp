@@ -1,0 +1,153 @@
+// radioslam agent: one robot of a team as a program of its own.
+#include "radioslam/cli/agent/command_agent.hpp"
+
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "radioslam/base/input_error.hpp"
+#include "radioslam/cli/agent/agent_process.hpp"
+#include "radioslam/cli/commands/command_options.hpp"
+#include "radioslam/cli/commands/mission_input.hpp"
+#include "radioslam/cli/commands/output_path_check.hpp"
+#include "radioslam/cli/config.hpp"
+#include "radioslam/cli/ending.hpp"
+#include "radioslam/cli/run_parameters.hpp"
+#include "radioslam/cli/team/journal_store.hpp"
+#include "radioslam/cli/team/network_options.hpp"
+#include "radioslam/cli/team/team_output.hpp"
+#include "radioslam/io/text/atomic_output.hpp"
+#include "radioslam/io/text/numbers.hpp"
+
+namespace radioslam::cli {
+namespace {
+
+struct AgentArguments {
+  std::string robot, log, journal, output, start;
+  std::vector<std::string> peers;
+  DdsConfig dds;
+  double rate = 1, cap = 1e6;
+  ParameterOptions parameters;
+};
+
+constexpr const char* kStart = "start";  // in the journal
+
+/// Which log of the robot it is that begins now: the later, the higher.
+std::uint32_t new_life() {
+  constexpr std::int64_t kSince_s = 1'735'689'600;  // 2025-01-01
+  constexpr std::int64_t kPart_ns = 100'000'000;
+  return static_cast<std::uint32_t>((time_of_host().ns - kSince_s * 1'000'000'000) / kPart_ns);
+}
+
+Stamp stamp_of_option(const std::string& text) {
+  const auto seconds = parse_number(text);
+  if (!seconds || !(*seconds > 0 && *seconds < 9e9))
+    throw InputError("--start", 0, "'" + text + "' is no time in seconds since 1970");
+  return Stamp::from_seconds(*seconds);
+}
+
+/// When the mission began: as told, as the journal has it, or now.
+Stamp start_of(const AgentArguments& arguments, AgentStore& store) {
+  const auto* journal = dynamic_cast<const JournalStore*>(&store);
+  const auto kept = journal ? journal->state(kStart) : std::nullopt;
+  const Stamp start = !arguments.start.empty() ? stamp_of_option(arguments.start)
+                      : kept                   ? Stamp{std::stoll(*kept)}
+                                               : time_of_host();
+  JournalChange change;
+  change.state[kStart] = std::to_string(start.ns);
+  store.commit(change);
+  return start;
+}
+
+DdsConfig dds_config(const AgentArguments& arguments) {
+  DdsConfig config = arguments.dds;
+  config.discovery = arguments.peers.empty() ? DdsDiscovery::kMulticast : DdsDiscovery::kPeers;
+  config.peers = arguments.peers;
+  return config;
+}
+
+void run_agent(const AgentArguments& arguments) {
+  const auto params = with_settings(
+      RunParams{}, collect_settings(arguments.parameters.config_path, arguments.parameters.set));
+  refuse_replacing_inputs(arguments.output, {arguments.log, arguments.journal});
+  OutputFolder output(arguments.output, kRunFolder);
+  MissionInput input = read_input({arguments.log});
+  if (!input.is_recorded())
+    throw InputError(arguments.log, 0, "an agent lives through a recorded mission, which this is not");
+  const MissionInput given = for_evaluation(input);
+  const Mission& mission = input.mission;
+  const RobotIndex self = robot_named(arguments.robot, mission, "--robot");
+  std::unique_ptr<AgentStore> store;
+  if (arguments.journal.empty())
+    store = store_in_memory(arguments.robot, new_life());
+  else
+    store = std::make_unique<JournalStore>(arguments.journal, arguments.robot, new_life());
+  const MissionClock clock(begin_of(mission), start_of(arguments, *store), arguments.rate);
+  AgentProcessSetup setup{.mission = mission, .self = self, .run = params, .dds = dds_config(arguments)};
+  setup.agent.bytes_s = arguments.cap;
+  setup.error_of = [&](const std::vector<EstimatedTrajectory>& team) {
+    return team_error_m(team, given.truth, mission.dimension);
+  };
+  setup.say = [&](const std::string& robot, const TeamEvent& event) {
+    std::cout << std::fixed << std::setprecision(1) << seconds_between(clock.begin(), event.at)
+              << " s: robot " << robot << ' ' << event.what << std::endl;
+  };
+  setup.is_to_conclude = is_to_conclude;
+  conclude_on_signal();
+  const TeamRun run = AgentProcess(setup, *store, clock).live();
+  write_results(run, params, given, output.path(), AgentFolders::kThere);
+  write_tables(output.path(), run, clock.begin());
+  output.commit();
+}
+
+}  // namespace
+
+void add_agent_options(CLI::App& program) {
+  const auto options = std::make_shared<AgentArguments>();
+  auto* command =
+      program.add_subcommand("agent", "Run one robot of a team, which talks to the others by DDS");
+  command->add_option("--robot", options->robot, "Which robot it is")->required()->type_name("ID");
+  command->add_option("--log", options->log, "Mission whose recordings of the robot are replayed")
+      ->required()
+      ->type_name("MISSION");
+  command->add_option("--rate", options->rate, "How many times faster than it was recorded")
+      ->check(number_from(0.01, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--start", options->start,
+                   "When the mission begins, seconds since 1970, the same for the whole team (default: now)")
+      ->type_name("S");
+  command
+      ->add_option("--journal", options->journal,
+                   "What outlives the program: started again with it, the robot goes on")
+      ->type_name("FILE");
+  command->add_option("--domain", options->dds.domain, "DDS domain of the team, as ROS_DOMAIN_ID")
+      ->check(CLI::Range(std::uint32_t{0}, kLastDdsDomain))
+      ->capture_default_str();
+  command
+      ->add_option("--peer", options->peers,
+                   "Host at which other robots are looked for, without multicast; may be repeated (default: "
+                   "by multicast)")
+      ->type_name("ADDRESS")
+      ->allow_extra_args(false);
+  command->add_option("--interface", options->dds.interface, "Network interface, by name or address")
+      ->type_name("NAME");
+  command
+      ->add_option("--robots-per-host", options->dds.robots_per_host,
+                   "How many robots are looked for at each host")
+      ->check(CLI::Range(1, 120))
+      ->capture_default_str();
+  command->add_option("--cap", options->cap, "Largest number of bytes a second to each other robot")
+      ->check(CLI::Range(1e3, 1e9))
+      ->capture_default_str();
+  add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
+  add_parameter_options(*command, options->parameters);
+  add_threads_option(*command);
+  command->callback([options] { run_agent(*options); });
+}
+
+}  // namespace radioslam::cli
