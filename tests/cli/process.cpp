@@ -80,10 +80,15 @@ bool Started::says(const std::string& text) {
   }
 }
 
-std::vector<int> Started::children() const {
+std::vector<int> Started::children(std::size_t count) {
   const std::string process = std::to_string(process_);
-  std::istringstream list(read_file("/proc/" + process + "/task/" + process + "/children"));
-  return {std::istream_iterator<int>(list), {}};
+  while (!has_ended()) {
+    std::istringstream list(read_file("/proc/" + process + "/task/" + process + "/children"));
+    std::vector<int> children{std::istream_iterator<int>(list), {}};
+    if (children.size() >= count) return children;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return {};
 }
 
 Outcome Started::wait() {

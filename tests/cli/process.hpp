@@ -51,8 +51,8 @@ class Started {
   void signal(int number) const;
   /// Waits until the program has written this to its standard output; false if it ends before.
   bool says(const std::string& text);
-  /// Its children's processes.
-  std::vector<int> children() const;
+  /// The processes of its children, once there are so many; none if the program ends before.
+  std::vector<int> children(std::size_t count);
   Outcome wait();
 
  private:
