@@ -17,6 +17,7 @@ radioslam_room(study NOT_INSTALLED
     study_json.cpp
     study_page.cpp
     study_table.cpp
+    team/team_study.cpp
     verification_budget/budget_study.cpp
     wi_closure/angle_paths.cpp
     wi_closure/place_settings.cpp
@@ -27,7 +28,7 @@ radioslam_room(study NOT_INSTALLED
     wi_closure_hall/wi_closure_hall.cpp
     wi_closure_kitti/wi_closure_kitti.cpp
     wi_closure_table1/wi_closure_table1.cpp
-  ROOMS radio rendezvous_world pipeline eval sim io report
+  ROOMS radio rendezvous_world pipeline eval sim io report team
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp
   radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js rendezvous_charts.js rendezvous_map.js

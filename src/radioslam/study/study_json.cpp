@@ -333,6 +333,37 @@ nlohmann::ordered_json distributed_optimization_json(const std::vector<Distribut
   return json;
 }
 
+nlohmann::ordered_json team_json(const TeamStudy& study) {
+  Json json{{"table", "team"},
+            {"first_seed", study.first_seed},
+            {"descriptor_bytes", study.descriptor_bytes},
+            {"cases", Json::array()}};
+  for (std::size_t k = 0; k < study.cases.size(); ++k) {
+    const TeamCase& of = study.cases[k];
+    Json seeds = Json::array();
+    for (const TeamSample& s : study.samples[k])
+      seeds.push_back({{"run_ate_m", optional_json(s.run_ate_m)},
+                       {"agent_ate_m", optional_json(s.agent_ate_m)},
+                       {"way_ate_m", optional_json(s.way_ate_m)},
+                       {"way_share", s.way_share},
+                       {"all_know_all", s.all_know_all},
+                       {"settled_s", s.settled_s},
+                       {"messages", s.messages},
+                       {"lost", s.lost},
+                       {"bytes", s.bytes},
+                       {"bytes_at_one", s.bytes_at_one},
+                       {"bytes_to_all", s.bytes_to_all},
+                       {"bytes_of_descriptors", s.bytes_of_descriptors},
+                       {"bytes_boxes_first", s.bytes_boxes_first}});
+    json["cases"].push_back({{"robots", of.robots},
+                             {"path_m", of.path_m},
+                             {"loss", of.loss},
+                             {"partition_s", of.partition_s},
+                             {"seeds", std::move(seeds)}});
+  }
+  return json;
+}
+
 nlohmann::ordered_json overlap_growth_json(const OverlapGrowth& growth) {
   return {{"table", "overlap-growth"},
           {"seed", growth.seed},

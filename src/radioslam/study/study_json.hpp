@@ -12,6 +12,7 @@
 #include "radioslam/study/fingerprints/threshold_sweep.hpp"
 #include "radioslam/study/overlap_growth/overlap_growth.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
+#include "radioslam/study/team/team_study.hpp"
 #include "radioslam/study/verification_budget/budget_study.hpp"
 #include "radioslam/study/wi_closure_hall/wi_closure_hall.hpp"
 #include "radioslam/study/wi_closure_kitti/wi_closure_kitti.hpp"
@@ -52,6 +53,11 @@ nlohmann::ordered_json verification_budget_json(const std::vector<BudgetMission>
 ///   "bytes_to_optimum", "trace": [[round, bytes up to its end, relative gap]]}]}]}; later rounds are thinned
 /// out in the trace, and those before the robots are in one frame are left out.
 nlohmann::ordered_json distributed_optimization_json(const std::vector<DistributedTeam>& teams);
+
+/// {"table", "first_seed", "descriptor_bytes", "cases": [{"robots", "path_m", "loss", "partition_s", "seeds":
+///   [{"run_ate_m", "agent_ate_m", "way_ate_m", "way_share", "all_know_all", "settled_s", "messages", "lost",
+///   "bytes", "bytes_at_one", "bytes_to_all", "bytes_of_descriptors", "bytes_boxes_first"}]}]}
+nlohmann::ordered_json team_json(const TeamStudy& study);
 
 /// {"table", "groups": [{"sight", "motion", "ours": {"links", "median_error_rad", "within_10_deg",
 ///   "best_of_4_within_10_deg", "within_1_645_sigma"}, "authors_same_trials": {...}, "authors_all": {...}}],

@@ -135,6 +135,7 @@ class VirtualTeam {
     }
     for (const Host& host : hosts_) conclude(host, run_);
     run_.traffic = network_.traffic();
+    run_.settled = changed_;
     run_.estimates = estimates_.asked();
     run_.computed = estimates_.computed();
     return std::move(run_);

@@ -48,6 +48,7 @@ struct TeamRun {
   std::map<std::string, std::vector<RobotLog>> logs;  ///< by agent: what it knows in the end, without gaps
   std::map<std::string, std::map<std::string, LogExtent>> extents;  ///< of these logs
   std::size_t estimates = 0, computed = 0;                          ///< computed: not shared
+  Stamp settled;                                                    ///< since when nobody lacks a record
   Stamp end;
 };
 

@@ -15,10 +15,10 @@
 #include "radioslam/base/suggestion.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/distributed_optimization.hpp"
-#include "radioslam/cli/recorded_drive.hpp"
 #include "radioslam/cli/config.hpp"
 #include "radioslam/cli/parameters.hpp"
 #include "radioslam/cli/progress_line.hpp"
+#include "radioslam/cli/recorded_drive.hpp"
 #include "radioslam/io/datasets/wsr_results.hpp"
 #include "radioslam/io/datasets/wsr_trial.hpp"
 #include "radioslam/io/mission/mission_folder.hpp"
@@ -228,6 +228,16 @@ Study rendezvous(const ReproduceOptions& options) {
   return {rendezvous_table(study), rendezvous_json(study), render_rendezvous_page(study)};
 }
 
+Study team(const ReproduceOptions& options) {
+  constexpr int kSeeds = 1;
+  refuse_drive(options);
+  if (!options.set.empty()) refuse(options, "takes only --seed and --seeds");
+  ProgressLine line;
+  const TeamStudy study =
+      study_team(team_cases(), options.seed, options.seeds.value_or(kSeeds), line.progress());
+  return study_of(team_table(study), team_json(study));
+}
+
 Study aoa(const ReproduceOptions& options) {
   refuse_drive(options);
   if (options.seeds) refuse(options, "takes no --seeds: its trials are recordings");
@@ -339,7 +349,7 @@ struct Table {
   Study (*reproduce)(const ReproduceOptions&);
 };
 
-constexpr std::array<Table, 13> kTables{
+constexpr std::array<Table, 14> kTables{
     {{"wi-closure-kitti",
       "KITTI 08 cut in two, radio noise of 0.5 m and 10 degrees, compared with Wi-Closure", wi_closure_kitti},
      {"wi-closure-table1",
@@ -362,6 +372,11 @@ constexpr std::array<Table, 13> kTables{
       "teams that meet by chance, at a place, when called and by turns, compared with Wang et al. (Active "
       "Rendezvous)",
       rendezvous},
+     {"team",
+      "agents without a server: error, bytes and delay over loss, partitions and the size of the team, "
+      "beside "
+      "other ways of sharing",
+      team},
      {"aoa", "angles of arrival of the WSR data set, compared with its authors' results", aoa},
      {"aoa-paths", "three simulated paths at once: which of them each AoA profile finds", aoa_paths},
      {"sequence-closures", "closures from similar fingerprint sequences, over similarity and window length",
@@ -513,7 +528,7 @@ void add_tables(CLI::App& program) {
       "WSR data set (aoa): the GitHub repository Harvard-REACT/WSR-Toolbox-Dataset.\n\n"
       "--set changes parameters of the simulated scenario; for aoa and aoa-paths it changes those of the\n"
       "angle estimation. `radioslam parameters TABLE` lists them.\n"
-      "wi-closure-table1, wi-closure-hall, robustness-map, verification-budget, aoa-paths,\n"
+      "wi-closure-table1, wi-closure-hall, robustness-map, verification-budget, team, aoa-paths,\n"
       "fingerprint-tables and threshold-sweep take minutes, as does distributed-optimization for large "
       "--team\n"
       "graphs. wi-closure-table1 needs 1.4 GB of memory for KITTI 08.\n"
