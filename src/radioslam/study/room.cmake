@@ -31,5 +31,5 @@ radioslam_room(study NOT_INSTALLED
   ROOMS radio rendezvous_world pipeline eval sim io report team
   LIBRARIES nlohmann_json::nlohmann_json)
 radioslam_page(radioslam_study ${CMAKE_CURRENT_SOURCE_DIR}/study/page radioslam/study/page_parts.hpp
-  radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js rendezvous_charts.js rendezvous_map.js
+  radioslam::study_page ../../report/page/format.js data.js scheme.js heat_map.js growth.js budget.js distributed.js team.js rendezvous_charts.js rendezvous_map.js
   rendezvous.js ways.js directions.js table.js main.js)

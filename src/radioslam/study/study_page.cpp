@@ -122,6 +122,12 @@ std::string render_distributed_page(const std::vector<DistributedTeam>& teams) {
   return page(data);
 }
 
+std::string render_team_page(const TeamStudy& study) {
+  Json data = table_json(team_table(study));
+  data["team"] = team_json(study);
+  return page(data);
+}
+
 std::string render_rendezvous_page(const RendezvousStudy& study) {
   Json data = table_json(rendezvous_table(study));
   data["rendezvous"] = rendezvous_page_json(study);

@@ -10,6 +10,7 @@
 #include "radioslam/study/rendezvous/rendezvous_study.hpp"
 #include "radioslam/study/robustness_map/robustness_map.hpp"
 #include "radioslam/study/study_table.hpp"
+#include "radioslam/study/team/team_study.hpp"
 #include "radioslam/study/verification_budget/budget_study.hpp"
 #include "radioslam/study/wi_closure/place_study.hpp"
 
@@ -30,6 +31,9 @@ std::string render_growth_page(const OverlapGrowth& growth);
 
 /// Error over the registrations of each order, a chart per scenario, with the table below.
 std::string render_budget_page(const std::vector<BudgetMission>& missions);
+
+/// Bytes and errors over losses, partitions and team size, with the table below.
+std::string render_team_page(const TeamStudy& study);
 
 /// Gap to the central optimum over rounds and over bytes, two charts per team, with the table below.
 std::string render_distributed_page(const std::vector<DistributedTeam>& teams);

@@ -235,7 +235,7 @@ Study team(const ReproduceOptions& options) {
   ProgressLine line;
   const TeamStudy study =
       study_team(team_cases(), options.seed, options.seeds.value_or(kSeeds), line.progress());
-  return study_of(team_table(study), team_json(study));
+  return {team_table(study), team_json(study), render_team_page(study)};
 }
 
 Study aoa(const ReproduceOptions& options) {

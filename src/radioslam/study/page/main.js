@@ -14,6 +14,7 @@ if (study.growth) {
 }
 if (study.budget) write_budget();
 if (study.distributed) write_distributed();
+if (study.team) write_team();
 if (study.rendezvous) write_rendezvous();
 if (study.ways) write_ways();
 if (study.directions) write_directions();

@@ -104,8 +104,8 @@ void add_team(const TeamRun& run, const std::vector<ScriptedRobot>& script, Team
   sample.settled_s = std::max(0.0, seconds_between(last, run.settled));
 }
 
-/// What other ways of sharing the same mission would send.
-void add_other_ways(const Mission& mission, const std::vector<ScriptedRobot>& script, const RunParams& params,
+/// The estimate without a network, and what other ways of sharing the same mission would send.
+void add_other_ways(const Simulation& town, const std::vector<ScriptedRobot>& script, const RunParams& params,
                     double descriptor_bytes, TeamSample& sample) {
   const std::size_t others = script.size() - 1;
   for (std::size_t r = 0; r < script.size(); ++r) {
@@ -124,7 +124,8 @@ void add_other_ways(const Mission& mission, const std::vector<ScriptedRobot>& sc
       asked.emplace(group.robot_j, row.keyframe_j, group.robot_i);
     }
   };
-  const RunResult result = run_pipeline(mission, params, how).result;
+  const RunResult result = run_pipeline(town.mission, params, how).result;
+  sample.run_ate_m = ate_rmse_m(team_estimate(result), town.truth, result.dimension);
   std::size_t keyframes = 0, boxes = 0;
   for (const RobotResult& robot : result.robots) keyframes += robot.estimate.stamps().size();
   if (result.exchange)
@@ -138,24 +139,20 @@ void add_other_ways(const Mission& mission, const std::vector<ScriptedRobot>& sc
 }
 
 TeamSample sample_of(const TeamCase& of, std::uint64_t seed, double descriptor_bytes) {
-  const auto [mission, truth] = simulate_city(town_of(of), seed);
+  const Simulation town = simulate_city(town_of(of), seed);
   const RunParams params;
   VirtualTeamSetup setup{
-      .dimension = mission.dimension, .run = params, .network = faults_of(of, mission, seed)};
+      .dimension = town.mission.dimension, .run = params, .network = faults_of(of, town.mission, seed)};
   setup.solvers = of.robots <= kMostSolvers ? of.robots : 1;
   setup.store = [](const std::string& robot) { return store_in_memory(robot, 1); };
-  setup.error_of = [&, &truth = truth, dimension = mission.dimension](const auto& frame) {
-    return ate_rmse_m(frame, truth, dimension);
-  };
-  const auto script = scripted_robots(mission, params);
+  setup.error_of = [&](const auto& frame) { return ate_rmse_m(frame, town.truth, town.mission.dimension); };
+  const auto script = scripted_robots(town.mission, params);
   const TeamRun run = run_team(script, setup);
   TeamSample sample;
   sample.driven_m = of.path_m * static_cast<double>(of.robots);
-  sample.run_ate_m =
-      ate_rmse_m(team_estimate(run_pipeline(mission, params).result), truth, mission.dimension);
-  sample.agent_ate_m = worst_ate_m(run, truth, params);
+  sample.agent_ate_m = worst_ate_m(run, town.truth, params);
   add_team(run, script, sample);
-  add_other_ways(mission, script, params, descriptor_bytes, sample);
+  add_other_ways(town, script, params, descriptor_bytes, sample);
   return sample;
 }
 
