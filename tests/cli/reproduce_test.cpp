@@ -82,6 +82,7 @@ TEST_F(Reproduce, RefusesInvalidCalls) {
             std::string::npos);
   EXPECT_NE(refusal({"robustness-map", "--cut", "0.5"}).find("towns are simulated"), std::string::npos);
   EXPECT_NE(refusal({"verification-budget", "--set", "robots=3"}).find("only --seed"), std::string::npos);
+  EXPECT_NE(refusal({"team", "--set", "robots=3"}).find("only --seed"), std::string::npos);
   EXPECT_NE(refusal({"distributed-optimization", "--seeds", "2"}).find("only --team"), std::string::npos);
   EXPECT_NE(refusal({"distributed-optimization", "--team", "none.g2o"}).find("none.g2o"), std::string::npos);
   EXPECT_NE(refusal({"robustness-map", "--team", "none.g2o"}).find("no --team"), std::string::npos);

@@ -37,7 +37,7 @@ TEST(TeamStudy, FaultsCostTimeAndBytesButNotTheFinalError) {
   EXPECT_GT(study.descriptor_bytes, 100);
   EXPECT_LT(study.descriptor_bytes, 800);  // a bit and half a byte for each of 20 x 60 bins
   EXPECT_EQ(team_table(study).rows.size(), 3U);
-  EXPECT_EQ(text_of(faulty), "3 robots, 60 m each, loss 40 %, partition 8 s");
+  EXPECT_EQ(text_of(faulty), "3 x 60 m, loss 40 %, partition 8 s");
   EXPECT_EQ(team_json(study)["cases"][1]["seeds"][0]["bytes"], lossy.bytes);
   EXPECT_NE(render_team_page(study).find("\"team\""), std::string::npos);
 }

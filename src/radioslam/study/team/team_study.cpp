@@ -141,11 +141,14 @@ void add_other_ways(const Simulation& town, const std::vector<ScriptedRobot>& sc
 TeamSample sample_of(const TeamCase& of, std::uint64_t seed, double descriptor_bytes) {
   const Simulation town = simulate_city(town_of(of), seed);
   const RunParams params;
-  VirtualTeamSetup setup{
-      .dimension = town.mission.dimension, .run = params, .network = faults_of(of, town.mission, seed)};
-  setup.solvers = of.robots <= kMostSolvers ? of.robots : 1;
-  setup.store = [](const std::string& robot) { return store_in_memory(robot, 1); };
-  setup.error_of = [&](const auto& frame) { return ate_rmse_m(frame, town.truth, town.mission.dimension); };
+  const VirtualTeamSetup setup{
+      .dimension = town.mission.dimension,
+      .run = params,
+      .agent = {},
+      .network = faults_of(of, town.mission, seed),
+      .solvers = of.robots <= kMostSolvers ? of.robots : 1,
+      .store = [](const std::string& robot) { return store_in_memory(robot, 1); },
+      .error_of = [&](const auto& frame) { return ate_rmse_m(frame, town.truth, town.mission.dimension); }};
   const auto script = scripted_robots(town.mission, params);
   const TeamRun run = run_team(script, setup);
   TeamSample sample;
@@ -174,7 +177,8 @@ TeamStudy study_team(const std::vector<TeamCase>& cases, std::uint64_t first_see
   study.samples.assign(cases.size(), std::vector<TeamSample>(per_case));
   ProgressCounter counter(progress, "teams", cases.size() * per_case);
   parallel_for(cases.size() * per_case, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
+    for (std::size_t at = begin; at < end; ++at) {
+      const std::size_t k = cases.size() * per_case - 1 - at;  // large teams first
       study.samples[k / per_case][k % per_case] =
           sample_of(cases[k / per_case], first_seed + k % per_case, study.descriptor_bytes);
       counter.one_more();
@@ -184,7 +188,7 @@ TeamStudy study_team(const std::vector<TeamCase>& cases, std::uint64_t first_see
 }
 
 std::string text_of(const TeamCase& of) {
-  std::string text = std::to_string(of.robots) + " robots, " + number_text(of.path_m, 0) + " m each";
+  std::string text = std::to_string(of.robots) + " x " + number_text(of.path_m, 0) + " m";
   if (of.loss > 0) text += ", loss " + percent_text(of.loss, 0);
   if (of.partition_s > 0) text += ", partition " + number_text(of.partition_s, 0) + " s";
   return text;
@@ -194,8 +198,8 @@ StudyTable team_table(const TeamStudy& study) {
   const std::size_t seeds = study.samples.empty() ? 0 : study.samples.front().size();
   StudyTable table{
       "A team of agents on a bad network",
-      "Simulated towns at 4 m/s, radio links, no scans. " + seeds_text(study.first_seed, seeds) +
-          "; bytes per robot and metre.",
+      "Teams in simulated towns, robots times metres driven at 4 m/s; radio links, no scans. " +
+          seeds_text(study.first_seed, seeds) + "; bytes per robot and metre.",
       {"run, m", "worst agent, m", "on the way, m", "known on the way", "all know all", "after, s", "lost",
        "agents, B", "logs at one, B", "logs to all, B", "descriptors, B", "boxes first, B"},
       {},

@@ -58,7 +58,7 @@ TeamStudy study_team(const std::vector<TeamCase>& cases, std::uint64_t first_see
 
 StudyTable team_table(const TeamStudy& study);
 
-/// "loss 30 %", "partition 60 s", "20 robots"
+/// "3 x 400 m, loss 30 %, partition 60 s"
 std::string text_of(const TeamCase& of);
 
 }  // namespace radioslam
