@@ -27,7 +27,6 @@ RunOutput estimate_of(const std::vector<RobotLog>& logs, const RunParams& params
 
 void write_result(const fs::path& folder, const RunOutput& run, const MissionInput& given,
                   const AgentsResult* agents = nullptr) {
-  fs::create_directories(folder);
   write_run(folder, run.result, documents_of(run, given, evaluate(run.result, given), nullptr, agents));
 }
 

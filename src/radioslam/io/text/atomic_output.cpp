@@ -199,6 +199,8 @@ void OutputFile::commit(std::string_view content) {
 }
 
 FileWriter::FileWriter(const fs::path& path) : path_(path), file_(nullptr, &std::fclose) {
+  const std::lock_guard lock(registry().mutex);  // no file appears where all have been removed
+  refuse_when_closed(path);
   fs::create_directories(path.parent_path());
   file_.reset(std::fopen(path.c_str(), "wb"));
   if (!file_) fail(errno, path);
