@@ -75,6 +75,7 @@ TeamRun run_in_process(const TeamArguments& arguments, const Mission& mission, c
 ProcessTeamRun run_by_dds(const TeamArguments& arguments, const Mission& mission, const fs::path& folder) {
   ProcessTeamSetup setup{.mission = arguments.mission.front(),
                          .robots = names_of(mission.robots),
+                         .dimension = mission.dimension,
                          .begin = begin_of(mission),
                          .rate = arguments.rate,
                          .domain = arguments.domain,

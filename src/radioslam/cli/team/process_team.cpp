@@ -145,7 +145,7 @@ ProcessTeamRun run_processes(const ProcessTeamSetup& setup, const fs::path& fold
     }
     const JournalStore store(folder / "journals" / (robot + ".journal"), robot, 0);
     const AgentMemory memory = store.memory();
-    const KnownLogs logs(robot, memory.life, memory.logs);
+    const KnownLogs logs(robot, setup.dimension, memory.life, memory.logs);
     team.run.logs[robot] = logs.whole();
     team.run.extents[robot] = logs.extents();
     read_tables(folder / "agents" / robot, setup.begin, team.run);

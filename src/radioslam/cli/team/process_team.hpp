@@ -14,7 +14,8 @@ namespace radioslam::cli {
 struct ProcessTeamSetup {
   std::string mission;
   std::vector<std::string> robots;
-  Stamp begin;  ///< of the mission
+  int dimension = 2;  ///< of the mission
+  Stamp begin;        ///< of the mission
   double rate = 10;
   std::optional<std::uint32_t> domain;  ///< else one that no other team of this machine has
   std::vector<std::string> options;     ///< more, for every agent
