@@ -39,7 +39,7 @@ class AgentProcess {
   AgentProcess(const AgentProcessSetup& setup, AgentStore& store, const MissionClock& clock);
   ~AgentProcess();
 
-  /// What this one agent knows in the end, and how it came to know it.
+  /// What this one agent knows in the end, and how it came to be known.
   TeamRun live();
 
  private:

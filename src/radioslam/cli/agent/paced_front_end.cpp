@@ -49,7 +49,7 @@ void PacedFrontEnd::run() {
   while (const auto stamp = samples.next()) {
     if (!wait_until(*stamp)) break;
     front_end_.add(samples.take());
-    tell();
+    report();
   }
   const auto tracked = front_end_.finish();
   is_finished_ = true;
@@ -58,24 +58,25 @@ void PacedFrontEnd::run() {
     add_clouds(tracked->track, tracked->track.keyframes.size(), last);
     if (tracked->traits)
       last.scanner = {tracked->traits->kind, tracked->track.nominal_inlier_ratio, tracked->traits->spacing_m};
-    tell();
+    report();
     amend_with_hindsight(front_end_, *tracked, mission_.robots[self_.index()], params_.scans.stage);
   }
   last.is_over = true;
-  tell(std::move(last));
+  report(std::move(last));
 }
 
-/// Those of the first `until` keyframes that were not told.
+/// Those of the first `until` keyframes that were not reported.
 void PacedFrontEnd::add_clouds(const ScanTrajectory& track, std::size_t until, FrontEndNews& news) {
   std::size_t first = until;
-  while (first > 0 && (!cloud_told_ || track.poses[track.keyframes[first - 1]].stamp > *cloud_told_)) --first;
+  while (first > 0 && (!reported_cloud_ || track.poses[track.keyframes[first - 1]].stamp > *reported_cloud_))
+    --first;
   for (std::size_t k = first; k < until; ++k) {
-    cloud_told_ = track.poses[track.keyframes[k]].stamp;
-    news.clouds.emplace_back(*cloud_told_, track.clouds[k]);
+    reported_cloud_ = track.poses[track.keyframes[k]].stamp;
+    news.clouds.emplace_back(*reported_cloud_, track.clouds[k]);
   }
 }
 
-void PacedFrontEnd::tell(FrontEndNews news) {
+void PacedFrontEnd::report(FrontEndNews news) {
   for (std::string& record : front_end_.take_records()) {
     if (!resumed_)
       news.records.push_back(std::move(record));
@@ -95,7 +96,8 @@ void PacedFrontEnd::tell(FrontEndNews news) {
                       traits->spacing_m};
   }
   auto events = front_end_.events();
-  for (; events_told_ < events.size(); ++events_told_) news.events.push_back(std::move(events[events_told_]));
+  for (; reported_events_ < events.size(); ++reported_events_)
+    news.events.push_back(std::move(events[reported_events_]));
   if (!news.empty()) inbox_.push(std::move(news));
 }
 

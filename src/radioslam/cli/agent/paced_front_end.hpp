@@ -30,7 +30,7 @@ class PacedFrontEnd {
  private:
   void run();
   bool wait_until(Stamp stamp);
-  void tell(FrontEndNews news = {});
+  void report(FrontEndNews news = {});
   void add_clouds(const ScanTrajectory& track, std::size_t until, FrontEndNews& news);
 
   const Mission& mission_;
@@ -41,8 +41,8 @@ class PacedFrontEnd {
   CloudStore clouds_;
   FrontEnd front_end_;
   std::optional<ResumedLog> resumed_;
-  std::optional<Stamp> cloud_told_;  ///< the last one's keyframe
-  std::size_t events_told_ = 0;
+  std::optional<Stamp> reported_cloud_;  ///< the last one's keyframe
+  std::size_t reported_events_ = 0;
   bool is_finished_ = false;
   std::mutex mutex_;
   std::condition_variable concluded_;

@@ -99,7 +99,7 @@ TeamChannel::Link& TeamChannel::link_to(const std::string& robot) {
 bool TeamChannel::has_room(const std::string& robot) {
   Link& link = link_to(robot);
   if (link.written < kAtOnce) return true;
-  if (!link.writer->is_acknowledged() && std::chrono::steady_clock::now() - link.since < kPatience)
+  if (!link.writer->is_acknowledged() && std::chrono::steady_clock::now() - link.since < kLongestWait)
     return false;
   link.written = 0;
   return true;

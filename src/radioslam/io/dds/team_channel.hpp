@@ -44,7 +44,7 @@ class TeamChannel {
   [[nodiscard]] bool send(const std::string& to, std::uint8_t kind, std::string_view octets,
                           Delivery delivery = Delivery::kReliable);
   /// Whether another message to the robot would push out none that is still on its way. A robot that does not
-  /// acknowledge what it gets, since it has ended, has room again after kPatience.
+  /// acknowledge what it gets, since it has ended, has room again after kLongestWait.
   bool has_room(const std::string& robot);
   /// Robots that this one reaches, and that reach it.
   std::size_t others() const { return std::min(all_.matched(), all_reader_.matched()); }
@@ -55,11 +55,11 @@ class TeamChannel {
   std::uint64_t lost() const;
 
  private:
-  static constexpr std::chrono::milliseconds kPatience{300};
+  static constexpr std::chrono::milliseconds kLongestWait{300};
 
   struct Link {
     std::unique_ptr<DdsWriter> writer;
-    std::size_t written = 0;  ///< since all had arrived, or patience ended
+    std::size_t written = 0;  ///< since all of it had arrived, or for kLongestWait
     std::chrono::steady_clock::time_point since{};
   };
 
