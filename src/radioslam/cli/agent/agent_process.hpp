@@ -25,10 +25,10 @@ struct AgentProcessSetup {
   RobotIndex self;
   const RunParams& run;
   DdsConfig dds;
-  AgentParams agent;
-  std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of;
-  std::function<void(const std::string& robot, const TeamEvent&)> say;  ///< what the user should know
-  std::function<bool()> is_to_conclude;  ///< with what is known; the recording ends there
+  AgentParams agent = {};
+  std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of = {};
+  std::function<void(const std::string& robot, const TeamEvent&)> say = {};  ///< what the user should know
+  std::function<bool()> is_to_conclude = {};  ///< with what is known; the recording ends there
 };
 
 class AgentProcess {
