@@ -93,6 +93,7 @@ constexpr std::array kParameterSets = std::to_array<ParameterSet>({
     {"reproduce verification-budget", nullptr, {}, kNoneOfTable},
     {"reproduce distributed-optimization", nullptr, {}, kNoneOfTable},
     {"reproduce rendezvous", nullptr, {}, kNoneOfTable},
+    {"reproduce team", nullptr, {}, kNoneOfTable},
     {"reproduce aoa", defaults_of<AoaParams>, "aoa"},
     {"reproduce aoa-paths", defaults_of<AoaParams>, "aoa"},
     {"reproduce sequence-closures", defaults_of<CarparkParams>, "simulate carpark"},

@@ -47,6 +47,7 @@ pid_t start_echo() {
   const pid_t child = ::fork();
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const char* shards : {"GTEST_TOTAL_SHARDS", "GTEST_SHARD_INDEX"}) ::unsetenv(shards);
     ::execl("/proc/self/exe", "io_dds_tests", "--gtest_also_run_disabled_tests", "--gtest_brief=1",
             "--gtest_filter=TeamProcess.DISABLED_Echo", nullptr);
     ::_exit(127);
