@@ -21,6 +21,7 @@ void hear(std::string_view bytes) {
   FactsRecord facts;
   facts.lidar_range_m = facts.lidar_view_rad = 1;
   agent.say(encode(Record(facts)));
+  agent.note_kept();
   for (int k = 0; k < kMostMessages && !bytes.empty(); ++k) {
     const std::string_view message = bytes.substr(0, bytes.find(kNext));
     bytes.remove_prefix(std::min(bytes.size(), message.size() + kNext.size()));
