@@ -3,36 +3,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/process.hpp"
+#include "cli/short_drive.hpp"
 
 namespace radioslam::cli {
 namespace {
 
-/// A short drive of two robots, simulated once.
-const TemporaryFolder& drive() {
-  static const TemporaryFolder folder;
-  static const bool is_made = [] {
-    return run({"simulate", "city", "-o", "town", "--seed", "3", "--set", "path_length_m=200",
-                "min_contact_s=4", "links=30"},
-               folder.path())
-               .status == 0;
-  }();
-  EXPECT_TRUE(is_made);
-  return folder;
-}
-
-double error_of(const std::filesystem::path& summary) {
-  return nlohmann::json::parse(read_file(summary)).at("metrics").at("ate_rmse_m").get<double>();
-}
-
 TEST(Team, EndsWhereARunEndsThoughMuchIsLost) {
   const auto& folder = drive();
-  ASSERT_EQ(run({"run", "town", "-o", "whole"}, folder.path()).status, 0);
   const Outcome team = run({"team", "town", "-o", "agents", "--loss", "0.3", "--partition", "5:10", "--late",
                             "b:8", "--kill", "a@12", "--seed", "2"},
                            folder.path());

@@ -1,8 +1,11 @@
 // Where the robots' odometry lies in the frames of the team, as it is published.
 //
 // A frame is named by its first robot. Robots whose alignment is ambiguous are in frames of their own. What
-// moves by more than a metre or six degrees is an event, and so is a robot that comes into another frame;
-// where closures alone put it there, the event says so.
+// moves by more than a metre or six degrees is an event, and so is a robot that comes into another frame.
+//
+// Places that look alike deceive closures, and radio distinguishes them: in a team that has links, a robot
+// that closures alone put into a frame stays in its own until links agree. Without any it is there, and the
+// event says so.
 #pragma once
 
 #include <cstddef>

@@ -73,18 +73,25 @@ ScanOdometry ScansSoFar::update(const LoggedKeyframes& known, const ScanLoopSear
   return scans;
 }
 
+void add_updated(ScansSoFar& scans, const LoggedKeyframes& known, const ScanLoopSearch& search,
+                 const Progress& progress, MeasuredScans& measured) {
+  const RobotIndex robot(measured.robots.size());
+  const auto& of = measured.robots.emplace_back(scans.update(known, search, progress));
+  for (const ScanLoop& loop : scans.loops().loops)
+    measured.closures.push_back({robot, of->keyframe_stamps[loop.i], of->keyframe_stamps[loop.j], loop});
+}
+
 MeasuredScans measured_so_far(std::map<std::string, ScansSoFar>& scans, const std::vector<Robot>& robots,
                               const std::map<std::string, LoggedKeyframes>& keyframes,
                               const ScanLoopSearch& search, const Progress& progress) {
   MeasuredScans measured;
-  for (std::size_t r = 0; r < robots.size(); ++r) {
-    auto& of = measured.robots.emplace_back();
-    const auto found = scans.find(robots[r].id);
-    if (found == scans.end() || !found->second.has_any(keyframes.at(robots[r].id))) continue;
-    of = found->second.update(keyframes.at(robots[r].id), search, progress);
-    for (const ScanLoop& loop : found->second.loops().loops)
-      measured.closures.push_back(
-          {RobotIndex(r), of->keyframe_stamps[loop.i], of->keyframe_stamps[loop.j], loop});
+  for (const Robot& robot : robots) {
+    const auto found = scans.find(robot.id);
+    const LoggedKeyframes& known = keyframes.at(robot.id);
+    if (found == scans.end() || !found->second.has_any(known))
+      measured.robots.emplace_back();
+    else
+      add_updated(found->second, known, search, progress, measured);
   }
   return measured;
 }

@@ -59,6 +59,10 @@ class ScansSoFar {
   ScanLoops loops_;
 };
 
+/// Adds a robot, the next of `measured`: its scans among these keyframes, updated, and its loops.
+void add_updated(ScansSoFar& scans, const LoggedKeyframes& known, const ScanLoopSearch& search,
+                 const Progress& progress, MeasuredScans& measured);
+
 /// What the scans of these robots say among the keyframes known of them, with the loops of each.
 MeasuredScans measured_so_far(std::map<std::string, ScansSoFar>& scans, const std::vector<Robot>& robots,
                               const std::map<std::string, LoggedKeyframes>& keyframes,

@@ -187,13 +187,13 @@ void Agent::send_digest(Stamp now, AgentStep& step) {
 
 /// To those that make none, by the first of those that do.
 void Agent::send_solution(Stamp now, AgentStep& step) {
+  for (const auto& [name, peer] : peers_)
+    if (peer.is_heard(now) && peer.solves && name < name_) return;
   SolutionMessage solution{estimate_->records(), {}};
   for (const auto& [robot, keyframes] : estimate_->keyframes()) {
     if (solution.frames.size() == kMaxTeam) break;
     solution.frames[robot] = estimate_->frames().of(robot);
   }
-  for (const auto& [name, peer] : peers_)
-    if (peer.is_heard(now) && peer.solves && name < name_) return;
   for (auto& [name, peer] : peers_)
     if (peer.is_heard(now) && !peer.solves) send(name, peer, solution, step);
 }

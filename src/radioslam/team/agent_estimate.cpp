@@ -71,19 +71,17 @@ ScanResult compare_scans(const ScanWork<Pose>& work, const RunParams& params) {
   MeasuredScans measured;
   std::size_t self = robots.size();
   for (std::size_t r = 0; r < robots.size(); ++r) {
-    auto& of = measured.robots.emplace_back();
     const LoggedKeyframes& known = work.keyframes.at(robots[r].id);
     if (robots[r].id == work.self) {
       self = r;
       if (!result.own.has_any(known)) return result;
-      of = result.own.update(
-          known, loop_search(params.scans, params.places.descriptors, logged.mission.dimension), {});
-      for (const ScanLoop& loop : result.own.loops().loops)
-        measured.closures.push_back(
-            {RobotIndex(r), of->keyframe_stamps[loop.i], of->keyframe_stamps[loop.j], loop});
-    } else if (const auto scans = work.others.find(robots[r].id); scans != work.others.end()) {
-      of = scans->second.among(known, true);
+      const auto search = loop_search(params.scans, params.places.descriptors, logged.mission.dimension);
+      add_updated(result.own, known, search, {}, measured);
+      continue;
     }
+    auto& of = measured.robots.emplace_back();
+    if (const auto scans = work.others.find(robots[r].id); scans != work.others.end())
+      of = scans->second.among(known, true);
   }
   if (self == robots.size()) return result;
   std::vector<VerifiedClosure> closures = closures_of_scans(measured.closures);

@@ -9,12 +9,12 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "cli/process.hpp"
+#include "cli/short_drive.hpp"
 #include "io/dds/dds_test_domain.hpp"
 #include "radioslam/io/journal/journal.hpp"
 #include "radioslam/io/text/numbers.hpp"
@@ -23,24 +23,6 @@ namespace radioslam::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A short drive of two robots, simulated once.
-const TemporaryFolder& drive() {
-  static const TemporaryFolder folder;
-  static const bool is_made = [] {
-    return run({"simulate", "city", "-o", "town", "--seed", "3", "--set", "path_length_m=200",
-                "min_contact_s=4", "links=30"},
-               folder.path())
-                   .status == 0 &&
-           run({"run", "town", "-o", "whole"}, folder.path()).status == 0;
-  }();
-  EXPECT_TRUE(is_made);
-  return folder;
-}
-
-double error_of(const fs::path& summary) {
-  return nlohmann::json::parse(read_file(summary)).at("metrics").at("ate_rmse_m").get<double>();
-}
 
 /// The files of a result that do not depend on how long it took.
 constexpr const char* kResults[] = {"a.tum", "b.tum", "closures.csv", "graph.g2o"};

@@ -1,25 +1,18 @@
 #include "radioslam/cli/team/network_options.hpp"
 
-#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "radioslam/base/input_error.hpp"
+#include "radioslam/io/text/numbers.hpp"
 
 namespace radioslam::cli {
 namespace {
 
-double number_of(const std::string& option, const std::string& text) {
-  std::size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !std::isfinite(value) || value < 0)
-    throw InputError(option, 0, "'" + text + "' is not a time in seconds");
-  return value;
+double seconds_of(const std::string& option, const std::string& text) {
+  const auto seconds = parse_number(text);
+  if (!seconds || !(*seconds >= 0)) throw InputError(option, 0, "'" + text + "' is not a time in seconds");
+  return *seconds;
 }
 
 Stamp after(Stamp begin, double seconds) { return {begin.ns + Stamp::from_seconds(seconds).ns}; }
@@ -32,7 +25,7 @@ std::pair<std::string, double> robot_and_time(const std::string& option, const s
     throw InputError(option, 0, "'" + text + "' is not a robot and a time, as in b" + separator + "120");
   const std::string id = text.substr(0, at);
   robot_named(id, mission, option);
-  return {id, number_of(option, text.substr(at + 1))};
+  return {id, seconds_of(option, text.substr(at + 1))};
 }
 
 }  // namespace
@@ -52,8 +45,8 @@ NetworkFaults faults_of(const NetworkOptions& options, const Mission& mission, S
     const std::size_t colon = options.partition.find(':');
     if (colon == std::string::npos)
       throw InputError("--partition", 0, "'" + options.partition + "' is not two times, as in 60:120");
-    const double from = number_of("--partition", options.partition.substr(0, colon)),
-                 to = number_of("--partition", options.partition.substr(colon + 1));
+    const double from = seconds_of("--partition", options.partition.substr(0, colon)),
+                 to = seconds_of("--partition", options.partition.substr(colon + 1));
     if (!(from < to)) throw InputError("--partition", 0, "it ends before it begins");
     faults.partition = {after(begin, from), after(begin, to)};
   }
