@@ -17,7 +17,7 @@ TeamMessage message_of(const std::string& robot, std::size_t bytes) {
 std::size_t taken_from(Inbox& inbox, const std::string& robot) {
   std::size_t count = 0;
   for (const Arrival& arrival : inbox.take(SteadyClock::now()))
-    if (const auto* message = std::get_if<TeamMessage>(&arrival)) count += message->from == robot ? 1 : 0;
+    if (const auto* message = std::get_if<TeamMessage>(&arrival)) count += message->from == robot ? 1U : 0U;
   return count;
 }
 
