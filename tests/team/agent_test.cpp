@@ -163,6 +163,26 @@ TEST(Agent, IsNotHarmedByHostileMessages) {
   EXPECT_EQ(a->logs().log("b").records.at(3), b->logs().log("b").records.at(3));
 }
 
+TEST(Agent, AnOlderCopyOfItsJournalBeginsAnotherLife) {
+  const auto a = agent("a"), b = agent("b");
+  for (std::uint32_t k = 0; k < 8; ++k) drive(*a, k);
+  Air{{a.get(), b.get()}}.run(5);
+  ASSERT_EQ(b->logs().extents().at("a").records, 9U);
+  KnownLog copy{1, a->logs().log("a").records};
+  copy.records.erase(copy.records.find(3), copy.records.end());
+  Agent again("a", 2, params(), {}, AgentMemory{1, {{"a", copy}}, 7});
+  for (std::uint32_t k = 2; k < 12; ++k) drive(again, 10 * k);
+  Air air{{&again, b.get()}, 0, 6};
+  air.run(10);
+  EXPECT_EQ(b->logs().extents().at("a"), again.logs().extents().at("a"));
+  EXPECT_EQ(again.logs().extents().at("a").life, 7U);
+  EXPECT_EQ(b->logs().log("a").records, again.logs().log("a").records);
+  again.hear("liar", encode("liar", Digest{{{"a", {8, 99}}}}), at(air.now_s));
+  air.run(5);
+  EXPECT_EQ(again.logs().extents().at("a").life, 7U);  // once
+  EXPECT_EQ(again.peers().at("liar").refused.size(), 1U);
+}
+
 TEST(Agent, OneThatDoesNotSolveTakesAnothersSolution) {
   AgentParams weak;
   weak.solves = false;

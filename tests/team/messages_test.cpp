@@ -12,7 +12,7 @@ namespace radioslam {
 namespace {
 
 std::vector<std::string> one_of_each() {
-  Digest digest{{{"a", {7, 120}}, {"bravo", {1, 0}}}, false};
+  Digest digest{{{"a", {7, 120, 5}}, {"bravo", {1, 0}}}, false};
   Want want{{{"a", 7, 5, 9}, {"c", 1, 0, 100000}}};
   CloudMessage cloud{Stamp::from_seconds(12.5), {ScannerKind::kPlanar, 0.8, 0.2}, "packed"};
   SolutionMessage solution{42, {{"a", {"b", SE3({1, 2, 3}, Eigen::Quaterniond(0.6, 0, 0, 0.8))}}}};
@@ -36,7 +36,7 @@ TEST(AgentMessages, AreReadAsTheyWereSaid) {
     EXPECT_EQ(message->sender, "a");
     EXPECT_EQ(encode(message->sender, message->message), all[k]);
   }
-  EXPECT_EQ(received<Digest>(all[0]).knows.at("a"), (LogExtent{7, 120}));
+  EXPECT_EQ(received<Digest>(all[0]).knows.at("a"), (LogExtent{7, 120, 5}));
   EXPECT_FALSE(received<Digest>(all[0]).solves);
   EXPECT_EQ(received<Want>(all[2]).stretches[1], (WantedStretch{"c", 1, 0, 100000}));
   EXPECT_EQ(received<CloudWant>(all[3]).keyframes[1], Stamp::from_seconds(2));

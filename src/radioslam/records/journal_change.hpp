@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,12 @@ struct JournalChange {
 
   std::vector<std::string> forgotten;  ///< robots, all of whose records go before any are added, but own ones
   std::vector<Kept> kept;              ///< numbers that are known must have the same contents
+  std::optional<std::uint32_t> life = {};  ///< the robot's next one; own records of the last go
   std::uint64_t first_own = 0;         ///< number of the first of `own`
   std::vector<std::string> own;        ///< as `kept`, and without a gap
   std::map<std::string, std::string> state;  ///< replaces the bytes of these keys
 
-  bool empty() const { return forgotten.empty() && kept.empty() && own.empty() && state.empty(); }
+  bool empty() const { return forgotten.empty() && kept.empty() && own.empty() && state.empty() && !life; }
 };
 
 }  // namespace radioslam

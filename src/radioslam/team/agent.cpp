@@ -18,6 +18,7 @@ Agent::Agent(std::string name, int dimension, const RunParams& run, const AgentP
       dimension_(dimension),
       run_(run),
       params_(params),
+      next_life_(memory.next_life),
       logs_(name_, dimension, memory.life, memory.logs),
       scans_(name_) {
   restart_estimate();
@@ -57,16 +58,27 @@ void Agent::refuse(const std::string& peer, const std::string& what, std::size_t
   count += times;
 }
 
-void Agent::take(const std::string& peer, const Digest& digest, Stamp) {
+void Agent::take(const std::string& peer, const Digest& digest, Stamp now) {
   Peer& of = peers_.at(peer);
   of.knows = digest.knows;
   of.solves = digest.solves;
   const auto own = digest.knows.find(name_);
+  if (own != digest.knows.end() && logs_.is_behind(own->second)) begin_life(peer, own->second, now);
   const LogExtent& extent = logs_.extents().at(name_);
   const std::uint64_t has = own != digest.knows.end() && own->second.life == extent.life
                                 ? std::min(own->second.records, extent.records)
                                 : 0;
   of.sent_own = std::max(of.sent_own, has);
+}
+
+/// Once, since anyone can say that more is known of this robot than it has.
+void Agent::begin_life(const std::string& peer, const LogExtent& own, Stamp now) {
+  if (next_life_ <= std::max(own.life, logs_.extents().at(name_).life))
+    return refuse(peer, "word of records in this robot's name that it did not say", 1, now);
+  events_.push_back({now, "begins its log anew, since robot " + peer +
+                              " knows more of the last one than its journal does"});
+  logs_.begin_life(std::exchange(next_life_, 0));
+  for (auto& [name, of] : peers_) of.sent_own = 0;
 }
 
 void Agent::take(const std::string& peer, const RecordsMessage& records, Stamp now) {

@@ -38,6 +38,7 @@ struct AgentParams {
 struct AgentMemory {
   std::uint32_t life = 0;
   std::vector<std::pair<std::string, KnownLog>> logs = {};
+  std::uint32_t next_life = 0;  ///< where others know more of this life than the journal; 0: none
 };
 
 struct SentMessage {
@@ -94,6 +95,7 @@ class Agent {
   void take(const std::string& peer, const CloudMessage& cloud, Stamp now);
   void take(const std::string& peer, const SolutionMessage& solution, Stamp now);
 
+  void begin_life(const std::string& peer, const LogExtent& own, Stamp now);
   void refuse(const std::string& peer, const std::string& what, std::size_t times, Stamp now);
   void ask(Stamp now);
   void tell_estimate();
@@ -110,6 +112,7 @@ class Agent {
   int dimension_;
   const RunParams& run_;
   AgentParams params_;
+  std::uint32_t next_life_;
   KnownLogs logs_;
   std::map<std::string, Peer> peers_;
   Asking asking_;

@@ -10,6 +10,13 @@ namespace {
 
 constexpr char kFactsKind = 0;  // first byte of a record
 
+/// Of records to this one, by that of those before it (FNV-1a).
+std::uint32_t checksum(std::uint32_t before, std::string_view record) {
+  std::uint32_t sum = (before ^ static_cast<std::uint32_t>(record.size())) * 16777619U;
+  for (const char byte : record) sum = (sum ^ static_cast<unsigned char>(byte)) * 16777619U;
+  return sum;
+}
+
 }  // namespace
 
 KnownLogs::KnownLogs(std::string self, int dimension, std::uint32_t life,
@@ -17,7 +24,8 @@ KnownLogs::KnownLogs(std::string self, int dimension, std::uint32_t life,
     : self_(std::move(self)), dimension_(dimension) {
   for (const auto& [robot, log] : kept) {
     if (robot == self_) {
-      if (log.life == life) own_ = log;
+      if (log.life == life)
+        for (const auto& [number, record] : log.records) say(record);
       continue;
     }
     if (const auto known = team_.robots().find(robot);
@@ -33,7 +41,7 @@ KnownLogs::KnownLogs(std::string self, int dimension, std::uint32_t life,
     kept_[robot] = extents_[robot].records;
   }
   own_.life = life;
-  extents_[self_] = {life, own_.records.size()};
+  extents_[self_] = {life, own_.records.size(), own_checksums_.back()};
 }
 
 std::vector<RobotLog> KnownLogs::whole() const {
@@ -46,7 +54,21 @@ std::vector<RobotLog> KnownLogs::whole() const {
   return logs;
 }
 
-void KnownLogs::say(std::string record) { own_.records.emplace(own_.records.size(), std::move(record)); }
+void KnownLogs::say(std::string record) {
+  own_checksums_.push_back(checksum(own_checksums_.back(), record));
+  own_.records.emplace(own_.records.size(), std::move(record));
+}
+
+bool KnownLogs::is_behind(const LogExtent& own) const {
+  if (own.life != own_.life) return own.life > own_.life;
+  return own.records > extents_.at(self_).records || own_checksums_[own.records] != own.checksum;
+}
+
+void KnownLogs::begin_life(std::uint32_t life) {
+  own_.life = life;
+  extents_[self_] = {life, 0, 0};
+  is_new_life_ = true;
+}
 
 std::map<std::string, std::size_t> KnownLogs::accept(const std::string& sender, std::string_view chunks) {
   Refusals refusals;
@@ -137,6 +159,7 @@ std::vector<std::pair<std::uint64_t, std::uint64_t>> KnownLogs::missing(const st
 
 JournalChange KnownLogs::change() const {
   JournalChange change;
+  if (is_new_life_) change.life = own_.life;
   change.forgotten.assign(forgotten_.begin(), forgotten_.end());
   const auto stretch = [](const KnownLog& log, std::uint64_t first, std::uint64_t end) {
     std::vector<std::string> records;
@@ -158,7 +181,8 @@ JournalChange KnownLogs::change() const {
 
 void KnownLogs::note_kept() {
   forgotten_.clear();
-  extents_[self_].records = own_.records.size();
+  is_new_life_ = false;
+  extents_[self_] = {own_.life, own_.records.size(), own_checksums_.back()};
   for (const auto& [robot, extent] : extents_) kept_[robot] = extent.records;
 }
 
@@ -176,8 +200,10 @@ void KnownLogs::extend(const std::string& robot) {
   LogExtent& extent = extents_[robot];
   extent.life = log.life;
   for (auto next = log.records.find(extent.records);
-       next != log.records.end() && next->first == extent.records; ++next)
+       next != log.records.end() && next->first == extent.records; ++next) {
     ++extent.records;
+    extent.checksum = checksum(extent.checksum, next->second);
+  }
 }
 
 }  // namespace radioslam

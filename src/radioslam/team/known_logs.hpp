@@ -29,6 +29,11 @@ class KnownLogs {
 
   /// The robot's own next record.
   void say(std::string record);
+  /// Whether others have records of this robot's life, or of a later one, that its journal has not: it is an
+  /// older copy.
+  bool is_behind(const LogExtent& own) const;
+  /// Says all its records again as those of another life.
+  void begin_life(std::uint32_t life);
   /// Bytes that `sender` sent as records. Returns what was refused, in words, and how often.
   std::map<std::string, std::size_t> accept(const std::string& sender, std::string_view chunks);
 
@@ -63,6 +68,8 @@ class KnownLogs {
   std::string self_;
   int dimension_;
   KnownLog own_;
+  std::vector<std::uint32_t> own_checksums_{0};  ///< of so many records
+  bool is_new_life_ = false;                     ///< that the journal does not have
   TeamLog team_;
   std::map<std::string, LogExtent> extents_;  ///< of others: as known; of the robot itself: as kept
   std::map<std::string, std::uint64_t> kept_;

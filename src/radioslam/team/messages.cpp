@@ -34,17 +34,19 @@ void put(WireWriter& out, const Digest& digest) {
     put_name(out, robot);
     out.u32(extent.life);
     out.whole(extent.records);
+    out.u32(extent.checksum);
   }
 }
 Digest digest_of(WireReader& in) {
   Digest digest;
   digest.solves = in.byte() == 1;
-  const std::size_t count = in.count(6);
+  const std::size_t count = in.count(10);
   if (count > kMaxTeam) in.refuse();
   for (std::size_t k = 0; k < count && in.good(); ++k) {
-    std::string robot = name_of(in);
-    const std::uint32_t life = in.u32();
-    digest.knows[std::move(robot)] = {life, in.whole()};
+    LogExtent& extent = digest.knows[name_of(in)];
+    extent.life = in.u32();
+    extent.records = in.whole();
+    extent.checksum = in.u32();
   }
   return digest;
 }

@@ -32,6 +32,7 @@ inline constexpr std::size_t kMaxStretches = 256;  ///< in a want
 struct LogExtent {
   std::uint32_t life = 0;     ///< which log of the robot it is; a later one is higher
   std::uint64_t records = 0;  ///< without a gap
+  std::uint32_t checksum = 0;  ///< of these (KnownLogs), so that logs that differ are seen
   bool operator==(const LogExtent&) const = default;
 };
 

@@ -17,9 +17,13 @@ class MemoryStore : public AgentStore {
  public:
   MemoryStore(std::string robot, std::uint32_t life) : robot_(std::move(robot)) { logs_[robot_].life = life; }
 
-  AgentMemory memory() const override { return {logs_.at(robot_).life, {logs_.begin(), logs_.end()}}; }
+  AgentMemory memory() const override {
+    const std::uint32_t life = logs_.at(robot_).life;
+    return {life, {logs_.begin(), logs_.end()}, life + 1};
+  }
   void commit(const JournalChange& change) override {
     for (const std::string& robot : change.forgotten) logs_.erase(robot);
+    if (change.life) logs_[robot_] = {*change.life, {}};
     for (const JournalChange::Kept& kept : change.kept) {
       KnownLog& log = logs_[kept.robot];
       log.life = kept.life;

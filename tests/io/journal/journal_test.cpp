@@ -132,6 +132,19 @@ TEST_F(JournalTest, AForgottenRobotMayHaveAnotherRecording) {
   EXPECT_EQ(records("c", 1), (Records{{0, "c0"}}));
 }
 
+TEST_F(JournalTest, AnotherLifeReplacesTheLastOneAtOnce) {
+  JournalChange change = own(0, {"x", "y"});
+  change.kept = {{"b", 1, 0, {"b0"}}};
+  commit(change);
+  change = own(0, {"x", "other y", "z"});
+  change.life = 9;
+  Journal journal = open();
+  journal.commit(change);
+  EXPECT_EQ(journal.life(), 9u);
+  EXPECT_EQ(journal.own_records(), 3u);
+  expect_refusal([&] { journal.commit(change); }, 0, "life 9 does not follow 9");
+}
+
 TEST_F(JournalTest, ManyRecordsAtOnce) {
   std::vector<std::string> many;
   Records expected;

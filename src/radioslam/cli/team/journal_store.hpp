@@ -1,6 +1,7 @@
 // What outlives an agent, in a journal on the disk.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,14 +15,15 @@ namespace radioslam::cli {
 class JournalStore : public AgentStore {
  public:
   JournalStore(const std::filesystem::path& file, const std::string& robot, std::uint32_t life_if_new)
-      : journal_(file, robot, life_if_new) {}
+      : journal_(file, robot, life_if_new), next_life_(life_if_new) {}
 
-  AgentMemory memory() const override { return {journal_.life(), journal_.logs()}; }
+  AgentMemory memory() const override { return {journal_.life(), journal_.logs(), next_life_}; }
   void commit(const JournalChange& change) override { journal_.commit(change); }
   std::optional<std::string> state(std::string_view key) const { return journal_.state(key); }
 
  private:
   Journal journal_;
+  std::uint32_t next_life_;
 };
 
 }  // namespace radioslam::cli

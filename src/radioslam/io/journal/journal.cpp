@@ -147,17 +147,33 @@ std::optional<std::string> Journal::state(std::string_view key) const {
 }
 
 void Journal::commit(const JournalChange& change) {
+  const std::uint32_t life = change.life.value_or(life_);
+  const std::uint64_t own_before = change.life ? 0 : own_records_;
   const Transaction transaction(database_);
   for (const std::string& robot : change.forgotten) forget(robot);
-  for (const JournalChange::Kept& kept : change.kept) keep(kept, own_records_);
-  if (change.first_own > own_records_)
+  if (change.life) begin_life(life);
+  for (const JournalChange::Kept& kept : change.kept) keep(kept, life, own_before);
+  if (change.first_own > own_before)
     refuse("record " + std::to_string(change.first_own) + " would leave a gap behind the " +
-           std::to_string(own_records_) + " that are known");
-  const std::uint64_t own_records = std::max(own_records_, change.first_own + change.own.size());
-  keep({robot_, life_, change.first_own, change.own}, own_records);
+           std::to_string(own_before) + " that are known");
+  const std::uint64_t own_records = std::max(own_before, change.first_own + change.own.size());
+  keep({robot_, life, change.first_own, change.own}, life, own_records);
   for (const auto& [key, bytes] : change.state) set_state(key, bytes);
   transaction.commit();
+  life_ = life;
   own_records_ = own_records;
+}
+
+void Journal::begin_life(std::uint32_t life) {
+  if (life <= life_) refuse("life " + std::to_string(life) + " does not follow " + std::to_string(life_));
+  SqliteRows removal = database_.prepare("DELETE FROM records WHERE robot = ? AND life = ?");
+  removal.bind_text(1, robot_);
+  removal.bind(2, life_);
+  removal.next();
+  SqliteRows owner = database_.prepare("UPDATE journal SET life = ?, crc = ?");
+  owner.bind(1, life);
+  owner.bind(2, row_checksum(robot_, life, 0, {}));
+  owner.next();
 }
 
 void Journal::forget(const std::string& robot) {
@@ -169,8 +185,8 @@ void Journal::forget(const std::string& robot) {
   removal.next();
 }
 
-void Journal::keep(const JournalChange::Kept& kept, std::uint64_t own_records) {
-  const bool is_own = kept.robot == robot_ && kept.life == life_;
+void Journal::keep(const JournalChange::Kept& kept, std::uint32_t life, std::uint64_t own_records) {
+  const bool is_own = kept.robot == robot_ && kept.life == life;
   SqliteRows row = database_.prepare("INSERT OR IGNORE INTO records VALUES(?, ?, ?, ?, ?)");
   SqliteRows known =
       database_.prepare("SELECT bytes FROM records WHERE robot = ? AND life = ? AND number = ?");

@@ -55,7 +55,8 @@ class Journal {
   void check_contents();
   void create(const std::string& robot, std::uint32_t life);
   void forget(const std::string& robot);
-  void keep(const JournalChange::Kept& kept, std::uint64_t own_records);
+  void begin_life(std::uint32_t life);
+  void keep(const JournalChange::Kept& kept, std::uint32_t life, std::uint64_t own_records);
   void set_state(const std::string& key, const std::string& bytes);
   [[noreturn]] void refuse(const std::string& reason) const;
 
