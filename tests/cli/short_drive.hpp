@@ -11,7 +11,7 @@
 namespace radioslam::cli {
 
 /// Has the mission `town`, and `whole`, the run of it.
-inline const TemporaryFolder& drive() {
+inline const TemporaryFolder& short_drive() {
   static const TemporaryFolder folder;
   static const bool is_made = [] {
     return run({"simulate", "city", "-o", "town", "--seed", "3", "--set", "path_length_m=200",

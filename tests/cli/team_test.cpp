@@ -14,7 +14,7 @@ namespace radioslam::cli {
 namespace {
 
 TEST(Team, EndsWhereARunEndsThoughMuchIsLost) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   const Outcome team = run({"team", "town", "-o", "agents", "--loss", "0.3", "--partition", "5:10", "--late",
                             "b:8", "--kill", "a@12", "--seed", "2"},
                            folder.path());
@@ -30,7 +30,7 @@ TEST(Team, EndsWhereARunEndsThoughMuchIsLost) {
 }
 
 TEST(Team, CountsWhatIsSentAndLost) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   ASSERT_EQ(run({"team", "town", "-o", "lossy", "--loss", "0.5"}, folder.path()).status, 0);
   std::istringstream table(read_file(folder.path() / "lossy/traffic.csv"));
   std::string row;
@@ -50,7 +50,7 @@ TEST(Team, CountsWhatIsSentAndLost) {
 }
 
 TEST(Team, WrongOptionsAreNamed) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
       {{"--kill", "z@5"}, "no robot 'z'"},
       {{"--kill", "b5"}, "not a robot and a time"},

@@ -73,7 +73,7 @@ std::vector<std::string> unfinished(const fs::path& folder) {
 }
 
 TEST(Agents, EndWhereARunEnds) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   const Outcome team =
       run({"team", "town", "--transport", "dds", "--rate", "20", "-o", "processes"}, folder.path());
   ASSERT_EQ(team.status, 0) << team.err;
@@ -88,7 +88,7 @@ TEST(Agents, EndWhereARunEnds) {
 }
 
 TEST(Agents, OneThatIsKilledAndStartedAgainGoesOn) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   const TemporaryFolder place;
   fs::create_symlink(folder.path() / "town", place.path() / "town");
   const std::string start = now();
@@ -123,7 +123,7 @@ TEST(Agents, OneThatIsKilledAndStartedAgainGoesOn) {
 }
 
 TEST(Agents, ConcludeWhenAskedTo) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   const TemporaryFolder place;
   fs::create_symlink(folder.path() / "town", place.path() / "town");
   const std::string start = now();
@@ -140,7 +140,7 @@ TEST(Agents, ConcludeWhenAskedTo) {
 }
 
 TEST(Agents, ASecondSignalLeavesNothingTorn) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   const TemporaryFolder place;
   fs::create_symlink(folder.path() / "town", place.path() / "town");
   Started a(agent("a", now()), place.path());
@@ -160,7 +160,7 @@ TEST(Agents, ASecondSignalLeavesNothingTorn) {
 }
 
 TEST(Agents, ATeamThatIsAskedToEndHasItsOutputs) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   Started team({"team", "town", "--transport", "dds", "--rate", "4", "-o", "asked"}, folder.path());
   const auto agents = team.children(2);
   ASSERT_EQ(agents.size(), 2U);
@@ -173,7 +173,7 @@ TEST(Agents, ATeamThatIsAskedToEndHasItsOutputs) {
 }
 
 TEST(Agents, ATeamNamesTheOneThatDied) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   Started team({"team", "town", "--transport", "dds", "--rate", "20", "-o", "bereaved"}, folder.path());
   const auto agents = team.children(2);
   ASSERT_EQ(agents.size(), 2U);
@@ -188,7 +188,7 @@ TEST(Agents, ATeamNamesTheOneThatDied) {
 }
 
 TEST(Agents, WrongOptionsAreNamed) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
       {{"agent", "--robot", "z", "--log", "town"}, "no robot 'z'"},
       {{"agent", "--robot", "a", "--log", "town", "--start", "soon"}, "no time in seconds"},
