@@ -29,7 +29,6 @@ radioslam_room(joint
     links/range_biases.cpp
     links/sight_notes.cpp
     overlap_stage.cpp
-    places/closure_worth.cpp
     places/map_witness.cpp
     places/place_exchange.cpp
     places/place_predictions.cpp

@@ -1,5 +1,6 @@
 radioslam_room(places
   SOURCES
+    closure_worth.cpp
     context_keys.cpp
     keyframe_contexts.cpp
     loops/kept_submaps.cpp

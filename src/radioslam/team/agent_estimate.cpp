@@ -60,6 +60,7 @@ struct ScanWork {
   const GrowingLogs& logs;
   const std::shared_ptr<const TeamSolution<Pose>>& last;
   const std::map<std::string, LoggedKeyframes>& keyframes;
+  std::size_t registrations;
 };
 
 /// Closures within the robot, and those between robots that an estimate with these scans verifies.
@@ -75,7 +76,8 @@ ScanResult compare_scans(const ScanWork<Pose>& work, const RunParams& params) {
     if (robots[r].id == work.self) {
       self = r;
       if (!result.own.has_any(known)) return result;
-      const auto search = loop_search(params.scans, params.places.descriptors, logged.mission.dimension);
+      auto search = loop_search(params.scans, params.places.descriptors, logged.mission.dimension);
+      search.most = work.others.empty() ? work.registrations : (work.registrations + 1) / 2;
       add_updated(result.own, known, search, {}, measured);
       continue;
     }
@@ -85,12 +87,20 @@ ScanResult compare_scans(const ScanWork<Pose>& work, const RunParams& params) {
   }
   if (self == robots.size()) return result;
   std::vector<VerifiedClosure> closures = closures_of_scans(measured.closures);
+  const ScanLoops& own = result.own.loops();
+  result.has_left_out = own.has_left_out;
   if (has_comparable_scans(measured)) {
     TeamSolution<Pose> before = *work.last;
     if (work.tried) before.places = work.tried;
-    const auto solution = estimate<Pose>(TeamView{logged, measured}, &before, Effort::kJudge, params,
-                                         {.lists_overlaps = false});
+    const std::size_t most =
+        (before.places ? before.places->attempts.size() : 0) + work.registrations - own.registrations;
+    RunOptions options{.lists_overlaps = false};
+    options.verifications =
+        VerificationBudget{most, VerificationBudget::Order::kWorth, params.places.least_worth, false};
+    const auto solution =
+        estimate<Pose>(TeamView{logged, measured}, &before, Effort::kJudge, params, options);
     result.tried = solution.places;
+    result.has_left_out = result.has_left_out || solution.places->attempts.size() >= most;
     closures.insert(closures.end(), solution.places->closures.begin(), solution.places->closures.end());
   }
   for (const auto& [closure, judgement] : closures) {
@@ -152,11 +162,12 @@ class AgentEstimateOf : public AgentEstimate {
 
   std::optional<ScanJob> scan_job(const std::string& self, const ScansSoFar& own,
                                   const std::map<std::string, ScansSoFar>& others,
-                                  std::shared_ptr<const RecognisedPlaces> tried) const override {
+                                  std::shared_ptr<const RecognisedPlaces> tried,
+                                  std::size_t registrations) const override {
     if (!known_.last()) return std::nullopt;
     return ScanJob{[self, own, others, tried = std::move(tried), logs = known_.logs(), last = known_.last(),
-                    keyframes = known_.keyframes(), &params = params_] {
-      return compare_scans<Pose>({self, own, others, tried, logs, last, keyframes}, params);
+                    keyframes = known_.keyframes(), registrations, &params = params_] {
+      return compare_scans<Pose>({self, own, others, tried, logs, last, keyframes, registrations}, params);
     }};
   }
 

@@ -33,6 +33,7 @@ struct ScanResult {
   ScansSoFar own;                                         ///< with what was tried
   std::shared_ptr<const RecognisedPlaces> tried;          ///< between robots
   std::vector<std::pair<Stamp, ClosureRecord>> closures;  ///< without the pose from which they are measured
+  bool has_left_out = false;                              ///< pairs that are worth a registration, too
 };
 /// As an EstimateJob, but of this robot alone.
 struct ScanJob {
@@ -53,10 +54,12 @@ class AgentEstimate {
   virtual std::vector<TeamEvent> take(const AnyGrownEstimate& result, Stamp now) = 0;
 
   /// Work on scans: `own` of robot `self`, and those of others that it was sent. `tried`: what the last job
-  /// gave, or null. Nothing before the first estimate.
+  /// gave, or null. At most so many registrations, those of greatest worth; half of them within the robot
+  /// where there are more. Nothing before the first estimate.
   virtual std::optional<ScanJob> scan_job(const std::string& self, const ScansSoFar& own,
                                           const std::map<std::string, ScansSoFar>& others,
-                                          std::shared_ptr<const RecognisedPlaces> tried) const = 0;
+                                          std::shared_ptr<const RecognisedPlaces> tried,
+                                          std::size_t registrations) const = 0;
   /// Keyframes of another robot within `range_m` of this robot's way in any of the likely alignments,
   /// `stride_m` apart. Where nothing aligns the two, any may be; these are farther apart.
   virtual std::vector<Stamp> near(const std::string& self, const std::string& other, double range_m,

@@ -14,6 +14,7 @@ constexpr double kAsk_s = 3, kPeriod_s = 10, kLast_s = 20;  // the last: work on
 constexpr int kTimes = 4;                                   // that a cloud is asked for
 constexpr std::size_t kMostAsked = 16;                      // at once, of one robot
 constexpr double kGrowth = 1.25;
+constexpr double kShare = 0.5, kRegistration_s = 0.1;  // of the time of a core; what a registration takes
 
 }  // namespace
 
@@ -69,13 +70,15 @@ std::map<std::string, CloudWant> AgentScans::wants(const AgentEstimate& estimate
 }
 
 std::optional<ScanJob> AgentScans::job(const AgentEstimate& estimate, Stamp now) {
-  if (is_working_ || news_ == 0) return std::nullopt;
+  if (is_working_ || (news_ == 0 && !has_left_out_)) return std::nullopt;
+  double since_s = kPeriod_s;
   if (worked_) {
-    const double since_s = seconds_between(*worked_, now);
+    since_s = std::min(seconds_between(*worked_, now), kLast_s);
     const bool has_grown = static_cast<double>(clouds_) > kGrowth * static_cast<double>(clouds_ - news_);
-    if (since_s < kPeriod_s || (!has_grown && since_s < kLast_s)) return std::nullopt;
+    if (since_s < kPeriod_s || (!has_grown && !has_left_out_ && since_s < kLast_s)) return std::nullopt;
   }
-  auto job = estimate.scan_job(self_, own_, others_, tried_);
+  auto job = estimate.scan_job(self_, own_, others_, tried_,
+                               static_cast<std::size_t>(since_s * kShare / kRegistration_s));
   if (!job) return std::nullopt;
   is_working_ = true;
   worked_ = now;
@@ -85,6 +88,7 @@ std::optional<ScanJob> AgentScans::job(const AgentEstimate& estimate, Stamp now)
 
 std::vector<std::string> AgentScans::done(const ScanResult& result, const LoggedKeyframes& own) {
   is_working_ = false;
+  has_left_out_ = result.has_left_out;
   own_.set_loops(result.own.loops());
   tried_ = result.tried;
   std::vector<std::string> records;

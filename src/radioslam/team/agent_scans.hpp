@@ -3,6 +3,9 @@
 // Of two robots, the first by name compares: it asks for the other's clouds where, as the team is estimated,
 // they show what it has seen itself, and registers them in its own map. Robots that nothing else aligns are
 // not compared. What holds is said in its log, and judged by everybody.
+//
+// Registrations, within the robot and between robots, have one budget, a share of the time; what it does not
+// reach waits, the worthiest first.
 #pragma once
 
 #include <map>
@@ -38,7 +41,7 @@ class AgentScans {
   std::vector<std::string> done(const ScanResult& result, const LoggedKeyframes& own);
   std::size_t clouds() const { return clouds_; }
   /// Whether work is done, or will be.
-  bool is_busy() const { return is_working_ || news_ > 0; }
+  bool is_busy() const { return is_working_ || news_ > 0 || has_left_out_; }
 
  private:
   struct Asked {
@@ -55,7 +58,7 @@ class AgentScans {
   std::set<std::tuple<std::string, Stamp, Stamp>> said_;
   std::size_t clouds_ = 0, news_ = 0;  ///< news: of these, since the last job
   std::optional<Stamp> worked_, wanted_;
-  bool is_working_ = false;
+  bool is_working_ = false, has_left_out_ = false;
 };
 
 }  // namespace radioslam

@@ -81,5 +81,26 @@ TEST(LoopCandidates, ThatWereDecidedAreNotTriedAgain) {
     EXPECT_EQ(count_after(decided, 0.45), 0U);
 }
 
+TEST(LoopCandidates, ThatAreLeftOutComeAgainTheWorthiestFirst) {
+  const ScanKeyframes keyframes = there_and_back(15);
+  const PoseGraph<SE3> graph = graph_of(keyframes, 1);
+  LoopCandidates candidates(keyframes, {});
+  const auto all = candidates.find(graph);
+  auto found = all;
+  EXPECT_FALSE(candidates.leave_out(all.size(), graph, found));
+  ASSERT_EQ(found.size(), all.size());
+  EXPECT_TRUE(candidates.leave_out(1, graph, found));
+  ASSERT_EQ(found.size(), 1U);
+  const auto path_m = [&](const LoopCandidate& of) {
+    return candidates.path_m()[of.j] - candidates.path_m()[of.i];
+  };
+  for (const LoopCandidate& other : all) EXPECT_LE(path_m(other), path_m(found[0]) + 4);
+  candidates.note(outcome(found[0], LoopStatus::kAccepted));
+  auto again = candidates.find(graph);
+  EXPECT_EQ(again.size(), all.size() - 1);
+  EXPECT_TRUE(candidates.leave_out(0, graph, again));
+  EXPECT_TRUE(again.empty());
+}
+
 }  // namespace
 }  // namespace radioslam

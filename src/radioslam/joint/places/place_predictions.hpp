@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "radioslam/graph/marginals.hpp"
-#include "radioslam/joint/places/closure_worth.hpp"
+#include "radioslam/places/closure_worth.hpp"
 #include "radioslam/joint/places/proposal.hpp"
 #include "radioslam/joint/places/scanned_robot.hpp"
 #include "radioslam/joint/team_estimate.hpp"

@@ -16,7 +16,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "radioslam/joint/places/closure_worth.hpp"
+#include "radioslam/places/closure_worth.hpp"
 #include "radioslam/joint/places/proposal.hpp"
 #include "radioslam/joint/places/scanned_robot.hpp"
 #include "radioslam/places/loops/scan_loop.hpp"

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "radioslam/graph/gauge.hpp"
+#include "radioslam/places/closure_worth.hpp"
 
 namespace radioslam {
 namespace {
@@ -48,6 +49,41 @@ std::vector<LoopCandidate> LoopCandidates::find(const PoseGraph<SE3>& graph) {
     }
   }
   return candidates;
+}
+
+bool LoopCandidates::leave_out(std::size_t most, const PoseGraph<SE3>& graph,
+                               std::vector<LoopCandidate>& found) {
+  if (found.size() <= most) return false;
+  std::vector<bool> is_kept(found.size(), false);
+  std::vector<WeighedPair> pairs;
+  std::vector<std::size_t> of_pair;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const auto& [i, j, T_i_j] = found[k];
+    if (part_of_[i] != part_of_[j]) {
+      if (most == 0) continue;
+      is_kept[k] = true;
+      --most;
+      continue;
+    }
+    const double near = probability_within(radius_of(j), T_i_j.pose.translation().head<2>(),
+                                           T_i_j.position_covariance().topLeftCorner<2, 2>());
+    pairs.push_back({PoseId(i), PoseId(j), near});
+    of_pair.push_back(k);
+  }
+  const SE3::Jacobian cov_closure =
+      isotropic(params_.min_sigma_m * params_.min_sigma_m, params_.min_sigma_rad * params_.min_sigma_rad);
+  for (const std::size_t n :
+       choose_by_worth<SE3>(pairs, {graph.poses, *marginals_}, cov_closure, std::min(most, pairs.size())))
+    is_kept[of_pair[n]] = true;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (is_kept[k])
+      found[kept++] = found[k];
+    else
+      tried_.erase({found[k].i, found[k].j});
+  }
+  found.resize(kept);
+  return true;
 }
 
 std::vector<std::size_t> LoopCandidates::revisits(std::size_t j, const std::vector<SE3>& poses) const {

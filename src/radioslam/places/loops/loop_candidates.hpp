@@ -41,6 +41,9 @@ class LoopCandidates {
   /// By this estimate of the keyframes' poses. Pairs that were candidates before are left out unless they
   /// were doubtful and are predicted much better now.
   std::vector<LoopCandidate> find(const PoseGraph<SE3>& graph);
+  /// Leaves all but the `most` of greatest worth of what the last search found, with this estimate, to another
+  /// one; whether there were any. Those that would join parts of the trajectory come first.
+  bool leave_out(std::size_t most, const PoseGraph<SE3>& graph, std::vector<LoopCandidate>& found);
   /// Standard deviation of the relative position of two keyframes, by the estimate of the last search. Of one
   /// `i` with many `j` it costs one solution. Thread-safe.
   double sigma_m(std::size_t i, std::size_t j) const;

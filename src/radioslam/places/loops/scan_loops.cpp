@@ -129,13 +129,18 @@ ScanLoops close_scan_loops(const ScanKeyframes& keyframes, const ScanLoopSearch&
       std::erase_if(found, [&](const LoopCandidate& candidate) {
         return stretches->covers(candidate.i, candidate.j) && reaches_elsewhere(candidate);
       });
+    result.has_left_out = candidates.leave_out(search.most - result.registrations, graph, found);
+    result.registrations += found.size();
     if (!index && std::any_of(found.begin(), found.end(), reaches_elsewhere))
       index = index_of(keyframes, candidates.path_m(), search);
     const PlacedKeyframes robot{keyframes, graph.poses, candidates.path_m(), index ? &*index : nullptr,
                                 [&](std::size_t a, std::size_t b) { return candidates.sigma_m(a, b); }};
     std::vector<ScanLoop> tried = verify(found, verification, robot);
     for (const ScanLoop& loop : tried) candidates.note(loop);
-    if (stretches && candidates.has_covariances()) add_stretches(*stretches, robot, result.loops, tried);
+    if (stretches && candidates.has_covariances() && result.registrations < search.most) {
+      add_stretches(*stretches, robot, result.loops, tried);
+      result.registrations = std::min(search.most, result.registrations + tried.size() - found.size());
+    }
     take_over(tried, result.loops);
     if (std::none_of(tried.begin(), tried.end(),
                      [](const ScanLoop& loop) { return loop.status == LoopStatus::kAccepted; }))

@@ -11,6 +11,8 @@
 //                those that were doubtful
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
@@ -27,6 +29,8 @@ struct ScanLoops {
   std::vector<ScanLoop> loops;  ///< all candidates that were tried
   std::vector<SE3> poses;       ///< of the keyframes, optimized with the accepted closures
   TriedPairs tried = {};
+  std::size_t registrations = 0;  ///< of this search
+  bool has_left_out = false;      ///< candidates, for want of registrations
 };
 
 /// How loops are searched. The descriptors' range, where it is 0, is chosen from the robot's scans.
@@ -37,6 +41,9 @@ struct ScanLoopSearch {
   RegistrationParams registration;
   PlaceDescriptorParams descriptors;
   Storeys storeys = Storeys::kSeveral;  ///< that the robot may change between
+  /// Largest number of registrations, of candidates of greatest worth (closure_worth.hpp); the others wait
+  /// for another search.
+  std::size_t most = std::numeric_limits<std::size_t>::max();
 };
 
 /// `before`: the loops of the first of these keyframes, when the robot had no more; what was tried then is

@@ -1,5 +1,5 @@
 // The choice of closures against dense covariances and exhaustive search.
-#include "radioslam/joint/places/closure_worth.hpp"
+#include "radioslam/places/closure_worth.hpp"
 
 #include <gtest/gtest.h>
 

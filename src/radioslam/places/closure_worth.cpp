@@ -1,4 +1,4 @@
-#include "radioslam/joint/places/closure_worth.hpp"
+#include "radioslam/places/closure_worth.hpp"
 
 #include <algorithm>
 #include <cmath>
