@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,17 +17,31 @@ namespace {
 TEST(Team, EndsWhereARunEndsThoughMuchIsLost) {
   const auto& folder = short_drive();
   const Outcome team = run({"team", "town", "-o", "agents", "--loss", "0.3", "--partition", "5:10", "--late",
-                            "b:8", "--kill", "a@12", "--seed", "2"},
+                            "b:8", "--kill", "a@12:14", "--seed", "2"},
                            folder.path());
   ASSERT_EQ(team.status, 0) << team.err;
   const auto out = folder.path() / "agents";
-  for (const char* file :
-       {"summary.json", "report.html", "traffic.csv", "known.csv", "agents/a/a.tum", "agents/b/summary.json"})
+  for (const char* file : {"summary.json", "report.html", "traffic.csv", "agents.csv", "agents/a/a.tum",
+                           "agents/b/summary.json", "agents/b/known.csv"})
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
   EXPECT_FALSE(std::filesystem::exists(out / "journals"));
   for (const char* file : {"a.tum", "b.tum", "closures.csv", "graph.g2o"})
     EXPECT_EQ(read_file(out / "agents/a" / file), read_file(out / "agents/b" / file)) << file;
   EXPECT_LE(error_of(out / "summary.json"), 2 * error_of(folder.path() / "whole/summary.json"));
+}
+
+TEST(Team, AKilledRobotThatDoesNotComeBackHasNoResult) {
+  const auto& folder = drive();
+  const Outcome team =
+      run({"team", "town", "-o", "without", "--kill", "b@12", "--partition", "2:4:b"}, folder.path());
+  ASSERT_EQ(team.status, 0) << team.err;
+  const auto out = folder.path() / "without";
+  EXPECT_FALSE(std::filesystem::exists(out / "agents/b"));
+  const auto summary = nlohmann::json::parse(read_file(out / "agents/a/summary.json"));
+  EXPECT_GT(summary["records"]["a"], summary["records"]["b"]);
+  EXPECT_GT(summary["bytes_sent"], 0);
+  EXPECT_GT(summary["bytes_received"], 0);
+  EXPECT_TRUE(summary["refused"].empty());
 }
 
 TEST(Team, CountsWhatIsSentAndLost) {
@@ -57,7 +72,9 @@ TEST(Team, WrongOptionsAreNamed) {
       {{"--kill", "b@soon"}, "not a time in seconds"},
       {{"--late", "b@5"}, "not a robot and a time"},
       {{"--partition", "9:5"}, "ends before it begins"},
-      {{"--partition", "9"}, "not two times"}};
+      {{"--kill", "b@9:5"}, "back before it is killed"},
+      {{"--partition", "9"}, "not two times"},
+      {{"--partition", "2:9:z"}, "no robot 'z'"}};
   for (const auto& [options, what] : wrong) {
     std::vector<std::string> arguments{"team", "town", "-o", "nothing"};
     arguments.insert(arguments.end(), options.begin(), options.end());

@@ -39,7 +39,7 @@ VirtualTeamSetup setup(NetworkFaults faults) {
   return of;
 }
 
-TeamRun live(NetworkFaults faults, const std::map<std::string, Stamp>& killed = {}) {
+TeamRun live(NetworkFaults faults, const std::map<std::string, Kill>& killed = {}) {
   return run_team(scripted_robots(town().simulated.mission, town().params, killed), setup(std::move(faults)));
 }
 
@@ -76,7 +76,7 @@ TEST(VirtualTeam, EndsWhereARunEnds) {
 TEST(VirtualTeam, IsNotHarmedByLossPartitionAndALateRobot) {
   NetworkFaults faults;
   faults.loss = 0.3;
-  faults.partition = {Stamp::from_seconds(5), Stamp::from_seconds(15)};
+  faults.partition = Partition{Stamp::from_seconds(5), Stamp::from_seconds(15)};
   faults.late["c"] = Stamp::from_seconds(12);
   const TeamRun run = live(faults);
   expect_all_know_all(run);
@@ -90,7 +90,7 @@ TEST(VirtualTeam, IsNotHarmedByLossPartitionAndALateRobot) {
 }
 
 TEST(VirtualTeam, ARobotThatIsKilledGoesOnWithItsLog) {
-  const std::map<std::string, Stamp> killed{{"b", Stamp::from_seconds(10)}};
+  const std::map<std::string, Kill> killed{{"b", {Stamp::from_seconds(10), Stamp::from_seconds(12)}}};
   const auto script = scripted_robots(town().simulated.mission, town().params, killed);
   ASSERT_EQ(script[1].runs.size(), 2U);
   const TeamRun run = run_team(script, setup({}));

@@ -37,17 +37,47 @@ Trajectory<SE3> online_trajectory(const StreamedTeam& team, std::size_t robot) {
   return Trajectory<SE3>(std::move(rows));
 }
 
-/// What the team knew when the keyframe was said: time of the estimate, its effort, the frame, its error.
-std::string team_columns(const Mission& mission, const StreamedTeam& team, const OnlineKeyframe& keyframe) {
+/// A keyframe, and the estimates made since the one said before it.
+struct SaidKeyframe {
+  const OnlineKeyframe* keyframe = nullptr;
+  std::optional<Effort> effort = {};  ///< the largest
+  double solve_s = 0;
+};
+
+/// By robot and number.
+std::map<std::pair<std::size_t, std::uint32_t>, SaidKeyframe> said_keyframes(const StreamedTeam& team) {
+  std::map<std::pair<std::size_t, std::uint32_t>, SaidKeyframe> keyframes;
+  std::size_t next = 0;  // estimate
+  for (const OnlineKeyframe& keyframe : team.keyframes) {
+    SaidKeyframe& said = keyframes[{keyframe.robot, keyframe.number}];
+    said.keyframe = &keyframe;
+    for (; keyframe.estimate && next <= *keyframe.estimate; ++next) {
+      const OnlineEstimate& estimate = team.estimates[next];
+      said.effort = std::max(said.effort.value_or(estimate.effort), estimate.effort);
+      said.solve_s += estimate.seconds;
+    }
+  }
+  return keyframes;
+}
+
+/// The robots of its frame, and the last error of a frame that was measured.
+std::string team_columns(const Mission& mission, const StreamedTeam& team, const SaidKeyframe& said) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(3);
-  const OnlineEstimate* estimate = keyframe.estimate ? &team.estimates[*keyframe.estimate] : nullptr;
-  if (estimate)
-    text << 1000 * estimate->seconds << ',' << name_of(estimate->effort) << ',';
+  if (said.effort)
+    text << 1000 * said.solve_s << ',' << name_of(*said.effort) << ',';
   else
     text << ",,";
-  text << mission.robots[keyframe.frame].id << ',';
-  if (!keyframe.estimate) return text.str();
+  const OnlineKeyframe& keyframe = *said.keyframe;
+  if (!keyframe.estimate) {
+    text << mission.robots[keyframe.robot].id << ',';
+    return text.str();
+  }
+  const std::vector<std::size_t>& frames = team.estimates[*keyframe.estimate].frame;
+  const char* separator = "";
+  for (std::size_t r = 0; r < frames.size(); ++r)
+    if (frames[r] == frames[keyframe.robot]) text << separator << mission.robots[r].id, separator = " ";
+  text << ',';
   for (std::size_t k = *keyframe.estimate + 1; k-- > 0;)
     if (const auto& error_m = team.estimates[k].error_m) {
       text << *error_m;
@@ -83,11 +113,9 @@ std::vector<std::string> event_notes(const StreamResult& stream) {
 
 void write_online(const std::filesystem::path& folder, const Mission& mission, const Streamed& streamed) {
   const auto& robots = streamed.robots;
-  std::map<std::pair<std::size_t, std::uint32_t>, const OnlineKeyframe*> keyframes;
-  for (const OnlineKeyframe& keyframe : streamed.team.keyframes)
-    keyframes[{keyframe.robot, keyframe.number}] = &keyframe;
+  const auto keyframes = said_keyframes(streamed.team);
   std::ostringstream table;
-  table << "t_s,robot,keyframe,latency_ms,delay_s,solve_ms,effort,component,ate_m\n" << std::fixed;
+  table << "t_s,robot,keyframe,latency_ms,solve_ms,effort,component,ate_m,delay_s\n" << std::fixed;
   for (std::size_t r = 0; r < robots.size(); ++r) {
     const std::string& id = mission.robots[r].id;
     write_file(folder / (id + ".online.tum"), format_tum(online_trajectory(streamed.team, r)));
@@ -95,10 +123,10 @@ void write_online(const std::filesystem::path& folder, const Mission& mission, c
       if (!pose.keyframe && !robots[r].follows_scans) continue;
       table << std::setprecision(9) << pose.pose.stamp.seconds() << ',' << id << ',';
       if (pose.keyframe) table << *pose.keyframe;
-      table << ',' << std::setprecision(3) << pose.latency_ms << ',' << pose.delay_s << ',';
+      table << ',' << std::setprecision(3) << pose.latency_ms << ',';
       const auto keyframe = pose.keyframe ? keyframes.find({r, *pose.keyframe}) : keyframes.end();
-      table << (keyframe == keyframes.end() ? ",,," : team_columns(mission, streamed.team, *keyframe->second))
-            << '\n';
+      table << (keyframe == keyframes.end() ? ",,," : team_columns(mission, streamed.team, keyframe->second))
+            << ',' << std::setprecision(3) << pose.delay_s << '\n';
     }
   }
   write_file(folder / "online.csv", table.str());

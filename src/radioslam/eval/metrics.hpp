@@ -20,6 +20,7 @@ struct EstimatedTrajectory {
   /// Stated standard deviation of each pose's position, as in RobotResult; may be empty.
   std::vector<double> sigma_position_m = {}, sigma_team_m = {};
   std::vector<std::pair<Stamp, Stamp>> untied = {};  ///< stretches without poses; not interpolated across
+  std::vector<double> sigma_rad = {};                ///< of rotations, as sigma_position_m
 };
 
 /// Association of an estimate with the truth.

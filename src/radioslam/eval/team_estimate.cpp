@@ -28,7 +28,8 @@ std::vector<EstimatedTrajectory> team_estimate(const std::vector<RobotResult>& r
                                                const RunResult& result) {
   std::vector<EstimatedTrajectory> team;
   for (const auto& robot : robots) {
-    team.push_back({robot.id, robot.estimate, robot.sigma_position_m, robot.sigma_team_m});
+    team.push_back(
+        {robot.id, robot.estimate, robot.sigma_position_m, robot.sigma_team_m, {}, robot.sigma_rad});
     for (const UntiedStretch& stretch : robot.untied)
       team.back().untied.emplace_back(stretch.first, stretch.last);
   }

@@ -58,6 +58,7 @@ struct RobotResult {
   std::vector<double>
       sigma_position_m;  ///< per keyframe, sqrt of the mean variance per axis; empty if not computed
   std::vector<double> sigma_team_m = {};  ///< the same in the gauge of the team (graph/team_gauge.hpp)
+  std::vector<double> sigma_rad = {};     ///< as sigma_position_m, of rotations; in the plane, of the heading
   double yaw_drift_per_m_rad = 0;         ///< estimated
   double scale_error = 0;                 ///< estimated
   double rssi_offset_db = 0;              ///< of its device relative to the team's mean

@@ -42,7 +42,7 @@ Stamp end_of(const Mission& mission) {
 }
 
 std::vector<ScriptedRobot> scripted_robots(const Mission& mission, const RunParams& params,
-                                           const std::map<std::string, Stamp>& killed) {
+                                           const std::map<std::string, Kill>& killed) {
   const Stamp begin = begin_of(mission), end{std::numeric_limits<std::int64_t>::max()};
   CloudStore clouds(params.scans.clouds);
   std::vector<ScriptedRobot> robots(mission.robots.size());
@@ -58,11 +58,12 @@ std::vector<ScriptedRobot> scripted_robots(const Mission& mission, const RunPara
         robot.runs.push_back(scripted(begin, run({begin, end, true})));
         continue;
       }
-      const Stamp back{end_of->second.ns + Stamp::from_seconds(kRestart_s).ns};
-      robot.runs.push_back(scripted(begin, run({begin, end_of->second, false})));
-      robot.runs.back().killed = end_of->second;
-      const ReplayedRobot again = run({back, end, true});
-      robot.runs.push_back(scripted(back, again));
+      const Kill& kill = end_of->second;
+      robot.runs.push_back(scripted(begin, run({begin, kill.at, false})));
+      robot.runs.back().killed = kill.at;
+      if (!kill.back) continue;
+      const ReplayedRobot again = run({*kill.back, end, true});
+      robot.runs.push_back(scripted(*kill.back, again));
       robot.runs.back().odometry_goes_on = !again.follows_scans;
     }
   });

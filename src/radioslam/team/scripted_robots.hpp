@@ -28,16 +28,19 @@ struct ScriptedRobot {
   std::vector<ScriptedRun> runs;
 };
 
-/// From a robot's end to its new beginning.
-inline constexpr double kRestart_s = 2;
+/// A robot's program ends without notice, and is perhaps started again.
+struct Kill {
+  Stamp at;
+  std::optional<Stamp> back = {};
+};
 
 /// The first odometry or scan of the mission.
 Stamp begin_of(const Mission& mission);
 /// The last one.
 Stamp end_of(const Mission& mission);
 
-/// In parallel. `killed`: by robot, when its program ends without notice; kRestart_s later another begins.
+/// In parallel. `killed`: by robot.
 std::vector<ScriptedRobot> scripted_robots(const Mission& mission, const RunParams& params,
-                                           const std::map<std::string, Stamp>& killed = {});
+                                           const std::map<std::string, Kill>& killed = {});
 
 }  // namespace radioslam

@@ -3,7 +3,13 @@
 namespace radioslam {
 
 VirtualNetwork::VirtualNetwork(std::vector<std::string> robots, const NetworkFaults& faults)
-    : robots_(std::move(robots)), faults_(faults), random_(faults.seed) {}
+    : robots_(std::move(robots)), faults_(faults), random_(faults.seed) {
+  const std::size_t half = (robots_.size() + 1) / 2;
+  for (std::size_t k = 0; k < robots_.size(); ++k)
+    is_apart_.push_back(
+        faults.partition &&
+        (faults.partition->apart.empty() ? k < half : faults.partition->apart.contains(robots_[k])));
+}
 
 void VirtualNetwork::send(std::size_t from, const SentMessage& message, Stamp now) {
   for (std::size_t to = 0; to < robots_.size(); ++to) {
@@ -11,10 +17,12 @@ void VirtualNetwork::send(std::size_t from, const SentMessage& message, Stamp no
     LinkTraffic& traffic = traffic_[{robots_[from], robots_[to], message.kind}];
     ++traffic.messages;
     traffic.bytes += message.bytes.size();
-    if (!reaches(from, to, now) || random_.uniform() < faults_.loss)
+    if (!reaches(from, to, now) || random_.uniform() < faults_.loss) {
       ++traffic.lost;
-    else
-      flights_.push_back({Stamp{now.ns + Stamp::from_seconds(faults_.delay_s).ns}, from, to, message.bytes});
+      continue;
+    }
+    traffic.arrived_bytes += message.bytes.size();
+    flights_.push_back({Stamp{now.ns + Stamp::from_seconds(faults_.delay_s).ns}, from, to, message.bytes});
   }
 }
 
@@ -34,9 +42,8 @@ bool VirtualNetwork::reaches(std::size_t from, std::size_t to, Stamp now) const 
   };
   if (is_off(from) || is_off(to)) return false;
   const auto& partition = faults_.partition;
-  const std::size_t half = (robots_.size() + 1) / 2;
-  const bool is_divided = partition && partition->first <= now && now < partition->second;
-  return !is_divided || (from < half) == (to < half);
+  const bool is_divided = partition && partition->begin <= now && now < partition->end;
+  return !is_divided || is_apart_[from] == is_apart_[to];
 }
 
 }  // namespace radioslam

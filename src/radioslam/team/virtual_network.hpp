@@ -20,16 +20,23 @@
 
 namespace radioslam {
 
+/// Robots `apart` and the others do not hear each other for a time.
+struct Partition {
+  Stamp begin, end;
+  std::set<std::string> apart = {};  ///< none: the first half of the robots
+};
+
 struct NetworkFaults {
   double loss = 0;  ///< probability that a message does not arrive, each way
   double delay_s = 0.05;
-  std::optional<std::pair<Stamp, Stamp>> partition;  ///< the first half of the robots hears not the second
-  std::map<std::string, Stamp> late;                 ///< by robot: when its radio is switched on
+  std::optional<Partition> partition = {};
+  std::map<std::string, Stamp> late = {};  ///< by robot: when its radio is switched on
   std::uint64_t seed = 1;
 };
 
 struct LinkTraffic {
   std::size_t messages = 0, bytes = 0, lost = 0;
+  std::size_t arrived_bytes = 0;
 };
 
 /// By sender, receiver and kind.
@@ -57,6 +64,7 @@ class VirtualNetwork {
 
   std::vector<std::string> robots_;
   const NetworkFaults& faults_;
+  std::vector<bool> is_apart_;  ///< by robot, on which side of the partition it is
   Rng random_;
   std::deque<Flight> flights_;
   TeamTraffic traffic_;

@@ -74,8 +74,14 @@ std::size_t let_say(Host& host, const ScriptedRun& run, Stamp now) {
 /// What the agent knows in the end.
 void conclude(const Host& host, TeamRun& run) {
   if (!host.agent) return;
-  run.logs[host.script->name] = host.agent->logs().whole();
-  run.extents[host.script->name] = host.agent->logs().extents();
+  const std::string& name = host.script->name;
+  run.logs[name] = host.agent->logs().whole();
+  run.extents[name] = host.agent->logs().extents();
+  run.counts[name].refused = refused_by(*host.agent);
+  for (const auto& [key, traffic] : run.traffic) {
+    if (std::get<0>(key) == name) run.counts[name].bytes_sent += traffic.bytes;
+    if (std::get<1>(key) == name) run.counts[name].bytes_received += traffic.arrived_bytes;
+  }
 }
 
 /// The estimates that agents ask for; those of the same key are made once.
@@ -137,8 +143,8 @@ class VirtualTeam {
       if (tick % 10 == 0) note_changes(now);
       if (now > end || (now > last_ && seconds_between(changed_, now) > kQuiet_s)) break;
     }
-    for (const Host& host : hosts_) conclude(host, run_);
     run_.traffic = network_.traffic();
+    for (const Host& host : hosts_) conclude(host, run_);
     run_.settled = changed_;
     run_.estimates = estimates_.asked();
     run_.computed = estimates_.computed();
@@ -182,8 +188,8 @@ class VirtualTeam {
     while (!host.done.empty() && host.done.front().first <= now) {
       host.agent->done(host.done.front().second, now);
       host.done.pop_front();
-      observe(host, now);
     }
+    observe(host, now);
     if (host.scans_done && host.scans_done->first <= now) {
       host.agent->done(host.scans_done->second);
       host.scans_done.reset();
@@ -211,14 +217,7 @@ class VirtualTeam {
   void observe(Host& host, Stamp now) {
     if (host.observed && seconds_between(*host.observed, now) < kObserve_s) return;
     host.observed = now;
-    const auto frame = host.agent->estimate().largest_frame();
-    if (frame.empty()) return;
-    KnownThen then{now, host.script->name, 0, frame.size(), {}};
-    std::uint64_t known = 0;
-    for (const auto& [robot, extent] : host.agent->logs().extents()) known += extent.records;
-    then.share = said_ == 0 ? 1 : static_cast<double>(known) / static_cast<double>(said_);
-    if (setup_.error_of) then.error_m = setup_.error_of(frame);
-    run_.known.push_back(std::move(then));
+    run_.known.push_back(known_then(*host.agent, now, said_, setup_.error_of));
   }
 
   /// Until when somebody learned something, or somebody knew more than another.
@@ -247,7 +246,7 @@ class VirtualTeam {
   std::optional<Stamp> begin_;
   Stamp last_, changed_;
   std::uint64_t known_ = 0;  ///< records and clouds, of all agents
-  std::size_t said_ = 0;
+  std::uint64_t said_ = 0;
   TeamRun run_;
 };
 
@@ -255,6 +254,28 @@ class VirtualTeam {
 
 std::unique_ptr<AgentStore> store_in_memory(const std::string& robot, std::uint32_t life) {
   return std::make_unique<MemoryStore>(robot, life);
+}
+
+KnownThen known_then(
+    const Agent& agent, Stamp now, std::uint64_t said,
+    const std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)>& error_of) {
+  const auto frame = agent.estimate().largest_frame();
+  KnownThen then{now, agent.name(), 1, frame.size()};
+  std::uint64_t known = 0;
+  for (const auto& [robot, extent] : agent.logs().extents()) {
+    then.records[robot] = extent.records;
+    known += extent.records;
+  }
+  if (said > 0) then.share = static_cast<double>(known) / static_cast<double>(said);
+  if (error_of && !frame.empty()) then.error_m = error_of(frame);
+  return then;
+}
+
+std::map<std::string, std::map<std::string, std::size_t>> refused_by(const Agent& agent) {
+  std::map<std::string, std::map<std::string, std::size_t>> refused;
+  for (const auto& [name, peer] : agent.peers())
+    if (!peer.refused.empty()) refused[name] = peer.refused;
+  return refused;
 }
 
 TeamRun run_team(const std::vector<ScriptedRobot>& robots, const VirtualTeamSetup& setup,

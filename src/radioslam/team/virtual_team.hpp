@@ -1,8 +1,8 @@
 // A team of agents in one process and in virtual time, over a network with faults: the same for the same
 // seed.
 //
-// A robot that is killed keeps what its store has and loses all else; it is
-// started again kRestart_s later, with a new front end.
+// A robot that is killed keeps what its store has and loses all else; where it is started again, that is with
+// a new front end.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +37,15 @@ struct KnownThen {
   Stamp at;
   std::string agent;
   double share = 0;                 ///< of the records that all robots have said
-  std::size_t robots_in_frame = 1;  ///< of the largest frame it knows
+  std::size_t robots_in_frame = 0;  ///< of the largest frame it knows; 0: it has no estimate
   std::optional<double> error_m{};  ///< of that frame, where the truth is known
+  std::map<std::string, std::uint64_t> records = {};  ///< that it has, by robot, without a gap
+};
+
+/// What an agent sent, received and refused in all.
+struct AgentCounts {
+  std::size_t bytes_sent = 0, bytes_received = 0;
+  std::map<std::string, std::map<std::string, std::size_t>> refused = {};  ///< by peer and reason
 };
 
 struct TeamRun {
@@ -47,6 +54,7 @@ struct TeamRun {
   std::vector<std::pair<std::string, TeamEvent>> events;  ///< by agent, in time order
   std::map<std::string, std::vector<RobotLog>> logs;  ///< by agent: what it knows in the end, without gaps
   std::map<std::string, std::map<std::string, LogExtent>> extents;  ///< of these logs
+  std::map<std::string, AgentCounts> counts;                        ///< by agent
   std::size_t estimates = 0, computed = 0;                          ///< computed: not shared
   Stamp settled;                                                    ///< since when nobody lacks a record
   Stamp end;
@@ -63,6 +71,12 @@ struct VirtualTeamSetup {
 };
 
 /// Until every agent that runs knows all, or nothing more comes.
+/// What an agent knows now.
+KnownThen known_then(
+    const Agent& agent, Stamp now, std::uint64_t said,
+    const std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)>& error_of);
+std::map<std::string, std::map<std::string, std::size_t>> refused_by(const Agent& agent);
+
 TeamRun run_team(const std::vector<ScriptedRobot>& robots, const VirtualTeamSetup& setup,
                  const Progress& progress = {});
 

@@ -56,7 +56,8 @@ std::string now() {
 }
 
 void expect_complete(const fs::path& result) {
-  for (const char* file : {"summary.json", "report.html", "traffic.csv", "known.csv", "events.csv"})
+  for (const char* file :
+       {"summary.json", "report.html", "traffic.csv", "agents.csv", "known.csv", "events.csv"})
     EXPECT_TRUE(fs::exists(result / file)) << result / file;
 }
 

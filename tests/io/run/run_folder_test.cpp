@@ -185,13 +185,15 @@ TEST(RunFolder, HasTheUncertaintyOfEveryKeyframe) {
   RunResult result = example();
   result.robots[1].sigma_position_m = {0.25, 1.5};
   result.robots[1].sigma_team_m = {0.125, 0.5};
+  result.robots[1].sigma_rad = {0.01, 0.02};
   write_run(folder.path(), result, {});
   EXPECT_EQ(folder.read("uncertainty.csv"),
-            "robot,t_s,sigma_m,sigma_team_m\nadam,0,0.25,0.125\nadam,1.5,1.5,0.5\n");
+            "robot,t_s,sigma_m,sigma_team_m,sigma_rad\nadam,0,0.25,0.125,0.01\nadam,1.5,1.5,0.5,0.02\n");
   const RunFolder run = read_run(folder.path());
   EXPECT_TRUE(run.robots[0].sigma_position_m.empty());
   EXPECT_EQ(run.robots[1].sigma_position_m, (std::vector<double>{0.25, 1.5}));
   EXPECT_EQ(run.robots[1].sigma_team_m, (std::vector<double>{0.125, 0.5}));
+  EXPECT_EQ(run.robots[1].sigma_rad, (std::vector<double>{0.01, 0.02}));
   EXPECT_EQ(summary_json(result)["robots"]["adam"]["start_sigma_m"], 0.25);
   EXPECT_FALSE(summary_json(result)["robots"]["zoe"].contains("start_sigma_m"));
 }

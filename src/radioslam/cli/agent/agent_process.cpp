@@ -71,21 +71,26 @@ TeamRun AgentProcess::live() {
   run_.logs[name_] = agent_.logs().whole();
   run_.extents[name_] = agent_.logs().extents();
   run_.traffic = outbox_.traffic();
+  for (const auto& [key, traffic] : run_.traffic) run_.counts[name_].bytes_sent += traffic.bytes;
+  run_.counts[name_].refused = refused_by(agent_);
   run_.end = clock_.now();
   return std::move(run_);
 }
 
 void AgentProcess::take(Arrival arrival, Stamp now) {
-  if (auto* message = std::get_if<TeamMessage>(&arrival))
-    return agent_.hear(message->from, message->octets, now);
+  if (auto* message = std::get_if<TeamMessage>(&arrival)) return hear(*message, now);
   if (auto* news = std::get_if<FrontEndNews>(&arrival)) return take(std::move(*news), now);
   if (const auto* result = std::get_if<AnyGrownEstimate>(&arrival)) {
     ++run_.computed;
-    agent_.done(*result, now);
-    return observe(now);
+    return agent_.done(*result, now);
   }
   if (const auto* result = std::get_if<ScanResult>(&arrival)) return agent_.done(*result);
   std::rethrow_exception(std::get<std::exception_ptr>(arrival));
+}
+
+void AgentProcess::hear(const TeamMessage& message, Stamp now) {
+  run_.counts[name_].bytes_received += message.octets.size();
+  agent_.hear(message.from, message.octets, now);
 }
 
 void AgentProcess::take(FrontEndNews news, Stamp now) {
@@ -110,6 +115,7 @@ void AgentProcess::step(Stamp now) {
   if (step.job) worker_.start([job = *std::move(step.job)] { return Arrival(job.run()); });
   if (step.scan_job) worker_.start([job = *std::move(step.scan_job)] { return Arrival(job.run()); });
   if (!looked_ || seconds_between(*looked_, now) >= kLook_s * clock_.rate()) look_around(now);
+  observe(now);
 }
 
 /// What the journal cannot take is not sent; it is tried again.
@@ -152,8 +158,6 @@ std::uint64_t AgentProcess::known_records() const {
 void AgentProcess::observe(Stamp now) {
   if (observed_ && seconds_between(*observed_, now) < kObserve_s) return;
   observed_ = now;
-  const auto frame = agent_.estimate().largest_frame();
-  if (frame.empty()) return;
   std::map<std::string, std::uint64_t> said;  // as far as this robot can know
   const auto note = [&](const std::map<std::string, LogExtent>& extents) {
     for (const auto& [robot, extent] : extents) said[robot] = std::max(said[robot], extent.records);
@@ -162,9 +166,7 @@ void AgentProcess::observe(Stamp now) {
   for (const auto& [name, peer] : agent_.peers()) note(peer.knows);
   std::uint64_t all = 0;
   for (const auto& [robot, records] : said) all += records;
-  KnownThen then{now, name_, 1, frame.size(), setup_.error_of(frame)};
-  if (all > 0) then.share = static_cast<double>(known_records()) / static_cast<double>(all);
-  run_.known.push_back(std::move(then));
+  run_.known.push_back(known_then(agent_, now, all, setup_.error_of));
 }
 
 /// Until when something was learned, or somebody knew something else.

@@ -44,6 +44,7 @@ class AgentProcess {
 
  private:
   void take(Arrival arrival, Stamp now);
+  void hear(const TeamMessage& message, Stamp now);
   void take(FrontEndNews news, Stamp now);
   void step(Stamp now);
   void commit();

@@ -99,7 +99,7 @@ void run_agent(const AgentArguments& arguments) {
   setup.is_to_conclude = is_to_conclude;
   conclude_on_signal();
   const TeamRun run = AgentProcess(setup, *store, clock).live();
-  write_results(run, params, given, output.path(), AgentFolders::kThere);
+  write_agent(run, arguments.robot, params, given, output.path(), clock.begin());
   write_tables(output.path(), run, clock.begin());
   output.commit();
 }

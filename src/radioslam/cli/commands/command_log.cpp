@@ -45,14 +45,19 @@ LogSummary summary_of(const KnownLog& log) {
   return summary;
 }
 
-nlohmann::ordered_json summary_json(const KnownLog& log) {
+nlohmann::ordered_json summary_json(const std::string& robot, const KnownLog& log) {
   const LogSummary summary = summary_of(log);
   nlohmann::ordered_json kinds, gaps = nlohmann::ordered_json::array();
   for (const auto& [kind, of] : summary.kinds)
     kinds[kRecordKinds[kind]] = {{"records", of.records}, {"bytes", of.bytes}};
   for (const auto& [first, last] : log.gaps()) gaps.push_back({first, last});
-  return {{"life", log.life},         {"records", log.records.size()}, {"bytes", summary.bytes},
-          {"path_m", summary.path_m}, {"kinds", std::move(kinds)},     {"gaps", std::move(gaps)}};
+  return {{"robot", robot},
+          {"life", log.life},
+          {"records", log.records.size()},
+          {"bytes", summary.bytes},
+          {"by_kind", std::move(kinds)},
+          {"metres", summary.path_m},
+          {"missing", std::move(gaps)}};
 }
 
 void print(const std::string& robot, const KnownLog& log) {
@@ -73,8 +78,14 @@ void print(const std::string& robot, const KnownLog& log) {
 void print_logs(const LogArguments& options) {
   const LogFiles logs = read_logs({options.files.begin(), options.files.end()});
   if (options.json) {
-    nlohmann::ordered_json json{{"robots", nlohmann::ordered_json::object()}, {"notes", logs.notes}};
-    for (const auto& [robot, log] : logs.team.robots()) json["robots"][robot] = summary_json(log);
+    nlohmann::ordered_json robots = nlohmann::ordered_json::array();
+    for (const auto& [robot, log] : logs.team.robots()) robots.push_back(summary_json(robot, log));
+    nlohmann::ordered_json json;
+    if (robots.size() == 1)
+      json = std::move(robots.front());
+    else
+      json["robots"] = std::move(robots);
+    json["notes"] = logs.notes;
     std::cout << json.dump(2) << '\n';
     return;
   }

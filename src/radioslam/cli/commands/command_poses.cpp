@@ -57,8 +57,8 @@ class EstimatedMotion {
   }
 
   /// The variance is interpolated between keyframes. Nothing where the run states none.
-  std::optional<double> sigma_m(const AskedPose& asked,
-                                std::vector<double> EstimatedTrajectory::*sigmas) const {
+  std::optional<double> sigma(const AskedPose& asked,
+                              std::vector<double> EstimatedTrajectory::*sigmas) const {
     const EstimatedTrajectory& robot = robots_[asked.robot];
     const std::vector<double>& of = robot.*sigmas;
     if (of.size() != robot.poses.size() || !robot.poses.covers(asked.stamp)) return std::nullopt;
@@ -95,25 +95,24 @@ void answer(const PosesArguments& options) {
   const EstimatedMotion motion(options.run);
   std::optional<OutputFile> file;
   if (!options.output.empty()) file.emplace(options.output);
-  std::string table = "robot,t_s,x,y,z,qx,qy,qz,qw,sigma_m,sigma_team_m\n";
+  std::string table = "robot,t_s,x,y,z,qx,qy,qz,qw,sigma_m,sigma_rad,sigma_team_m\n";
   std::map<std::size_t, std::size_t> without;
   for (const AskedPose& asked : read_asked(options, motion)) {
     const auto pose = motion.pose(asked);
-    if (!pose) {
-      ++without[asked.robot];
-      continue;
-    }
+    if (!pose) ++without[asked.robot];
     table += motion.id(asked.robot) + "," + format_stamp(asked.stamp);
-    append_pose_fields(table, *pose);
-    for (const auto sigmas : {&EstimatedTrajectory::sigma_position_m, &EstimatedTrajectory::sigma_team_m}) {
+    append_pose_fields(table, pose);
+    for (const auto sigmas : {&EstimatedTrajectory::sigma_position_m, &EstimatedTrajectory::sigma_rad,
+                              &EstimatedTrajectory::sigma_team_m}) {
       table += ',';
-      if (const auto sigma = motion.sigma_m(asked, sigmas)) append_number(table, *sigma);
+      const auto sigma = pose ? motion.sigma(asked, sigmas) : std::nullopt;
+      if (sigma) append_number(table, *sigma);
     }
     table += '\n';
   }
   for (const auto& [robot, count] : without)
     std::cerr << "note: robot " << motion.id(robot) << ": " << count
-              << " times are left out: the run has no pose of it there\n";
+              << " times have no pose: the run has none of it there\n";
   if (file)
     file->commit(table);
   else
@@ -135,11 +134,9 @@ void add_poses(CLI::App& program) {
   command->add_option("-o,--output", options->output, "File to write (default: standard output)")
       ->type_name("FILE");
   command->footer(
-      "A row per time: robot,t_s,x,y,z,qx,qy,qz,qw,sigma_m,sigma_team_m, the pose in the frame of the run "
-      "and\n"
-      "standard deviations of the position as in uncertainty.csv. Poses are interpolated between those of\n"
-      "dense/<robot>.tum, variances between keyframes. Times at which a run has no pose are left out, with "
-      "a\n"
+      "A row per time: robot,t_s,x,y,z,qx,qy,qz,qw,sigma_m,sigma_rad,sigma_team_m, the pose in the frame of\n"
+      "the run and standard deviations as in uncertainty.csv. Poses are interpolated between those of\n"
+      "dense/<robot>.tum, variances between keyframes. Where a run has no pose the fields are empty, with a\n"
       "note on standard error.\n\n"
       "Example:\n"
       "  radioslam poses carpark-out --at images.csv -o image-poses.csv");

@@ -35,11 +35,11 @@ constexpr const char* kDds = "dds";
 
 struct TeamArguments {
   std::vector<std::string> mission;
-  std::string output, transport = kInProcess;
+  std::string output, transport;
   NetworkOptions network;
   double cap = 1e6;
   std::size_t solvers = kMaxTeam;
-  double rate = 10;
+  double rate = 1;
   std::optional<std::uint32_t> domain;
   ParameterOptions parameters;
 };
@@ -108,7 +108,8 @@ void run_agents(const TeamArguments& arguments) {
   const TeamRun& run = team.run;
   const Stamp begin = begin_of(input.mission);
   if (run.extents.empty() && !team.failed.empty()) throw InputError("team", 0, team.failed.front());
-  write_results(run, params, given, output.path(), is_dds ? AgentFolders::kThere : AgentFolders::kWritten);
+  write_results(run, params, given, output.path(), is_dds ? AgentFolders::kThere : AgentFolders::kWritten,
+                begin);
   write_tables(output.path(), run, begin);
   output.commit();
   std::size_t bytes = 0;
@@ -123,8 +124,11 @@ void run_agents(const TeamArguments& arguments) {
   throw InputError(arguments.output, 0, all + "; what the others know is there");
 }
 
-/// Refuses what the other kind of transport has.
-void check_options(const CLI::App& command, const TeamArguments& arguments) {
+/// Chooses the transport where none is given. Refuses what the other kind of transport has.
+void check_options(const CLI::App& command, TeamArguments& arguments) {
+  const bool has_faults = std::any_of(kOfInProcess.begin(), kOfInProcess.end(),
+                                      [&](const char* option) { return command.count(option) > 0; });
+  if (arguments.transport.empty()) arguments.transport = has_faults ? kInProcess : kDds;
   const auto refuse = [&](const auto& options, const std::string& transport) {
     for (const char* option : options)
       if (command.count(option) > 0)
@@ -145,19 +149,23 @@ void add_team(CLI::App& program) {
   add_mission_option(*command, options->mission);
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   command
-      ->add_option("--transport", options->transport,
-                   "How the agents are connected: in virtual time, or as processes that talk by DDS")
-      ->check(CLI::IsMember({kInProcess, kDds}))
-      ->capture_default_str();
+      ->add_option(
+          "--transport", options->transport,
+          "How the agents are connected: in virtual time, or as processes that talk by DDS (default: dds, "
+          "without options of the other kind)")
+      ->check(CLI::IsMember({kInProcess, kDds}));
   command->add_option("--loss", options->network.loss, "Probability that a message is lost, each way")
       ->check(CLI::Range(0.0, 0.95));
   command->add_option("--delay", options->network.delay_s, "Delay of messages, seconds")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
-  command->add_option("--partition", options->network.partition,
-                      "T0:T1, seconds: the first half of the robots and the second do not hear each other");
+  command->add_option(
+      "--partition", options->network.partition,
+      "T0:T1[:ROBOT,...], seconds: these robots (default: the first half) and the others do not "
+      "hear each other");
   command->add_option("--kill", options->network.kills,
-                      "ROBOT@T: the robot's program is killed, and started again 2 s later; may be repeated");
+                      "ROBOT@T[:T_BACK]: the robot's program is killed, and started again at T_BACK; may be "
+                      "repeated, for other robots");
   command->add_option("--late", options->network.late,
                       "ROBOT:T: the robot's radio is off until then; may be repeated");
   command->add_option("--cap", options->cap, "Largest number of bytes a second from each robot to each other")

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/team/scripted_robots.hpp"
 #include "radioslam/team/virtual_network.hpp"
 
 namespace radioslam::cli {
 
 struct NetworkOptions {
-  std::string partition;           ///< T0:T1
-  std::vector<std::string> kills;  ///< ROBOT@T
+  std::string partition;           ///< T0:T1[:ROBOT,...]
+  std::vector<std::string> kills;  ///< ROBOT@T[:T_BACK]
   std::vector<std::string> late;   ///< ROBOT:T
   double loss = 0, delay_s = 0.05;
   std::uint64_t seed = 1;
@@ -24,6 +25,6 @@ RobotIndex robot_named(const std::string& id, const Mission& mission, const std:
 /// Times are seconds from `begin` on. Throws InputError naming the option.
 NetworkFaults faults_of(const NetworkOptions& options, const Mission& mission, Stamp begin);
 /// When which robots' programs are killed.
-std::map<std::string, Stamp> kills_of(const NetworkOptions& options, const Mission& mission, Stamp begin);
+std::map<std::string, Kill> kills_of(const NetworkOptions& options, const Mission& mission, Stamp begin);
 
 }  // namespace radioslam::cli

@@ -25,9 +25,33 @@ RunOutput estimate_of(const std::vector<RobotLog>& logs, const RunParams& params
   return run;
 }
 
-void write_result(const fs::path& folder, const RunOutput& run, const MissionInput& given,
-                  const AgentsResult* agents = nullptr) {
-  write_run(folder, run.result, documents_of(run, given, evaluate(run.result, given), nullptr, agents));
+/// Of one agent, beside what a run says.
+nlohmann::ordered_json summary_of(const std::map<std::string, LogExtent>& extents,
+                                  const AgentCounts& counts) {
+  nlohmann::ordered_json records, refused = nlohmann::ordered_json::object();
+  for (const auto& [robot, extent] : extents) records[robot] = extent.records;
+  for (const auto& [peer, reasons] : counts.refused) refused[peer] = reasons;
+  return {{"records", std::move(records)},
+          {"refused", std::move(refused)},
+          {"bytes_sent", counts.bytes_sent},
+          {"bytes_received", counts.bytes_received}};
+}
+
+/// By robot, the log of whoever has most of its last life.
+std::vector<RobotLog> all_records(const TeamRun& run) {
+  std::map<std::string, std::pair<LogExtent, const RobotLog*>> most;
+  for (const auto& [agent, logs] : run.logs)
+    for (const RobotLog& log : logs) {
+      const LogExtent& extent = run.extents.at(agent).at(log.robot);
+      auto& [known, of] = most[log.robot];
+      if (of && std::pair(known.life, known.records) >= std::pair(extent.life, extent.records)) continue;
+      known = extent;
+      of = &log;
+    }
+  std::vector<RobotLog> all;
+  for (const auto& [robot, of] : most)
+    if (!of.second->records.empty()) all.push_back(*of.second);
+  return all;
 }
 
 /// As the page shows it.
@@ -67,7 +91,7 @@ std::string traffic_csv(const TeamTraffic& traffic) {
   return table.str();
 }
 
-std::string known_csv(const std::vector<KnownThen>& known, Stamp begin) {
+std::string agents_csv(const std::vector<KnownThen>& known, Stamp begin) {
   std::ostringstream table;
   table << "t_s,agent,share,robots_in_frame,ate_m\n" << std::fixed;
   for (const KnownThen& then : known) {
@@ -76,6 +100,16 @@ std::string known_csv(const std::vector<KnownThen>& known, Stamp begin) {
     if (then.error_m) table << *then.error_m;
     table << '\n';
   }
+  return table.str();
+}
+
+std::string known_csv(const std::vector<KnownThen>& known, const std::string& agent, Stamp begin) {
+  std::ostringstream table;
+  table << "t_s,robot,records\n" << std::fixed << std::setprecision(1);
+  for (const KnownThen& then : known)
+    for (const auto& [robot, records] : then.records)
+      if (then.agent == agent)
+        table << seconds_between(begin, then.at) << ',' << robot << ',' << records << '\n';
   return table.str();
 }
 
@@ -99,12 +133,12 @@ std::optional<double> team_error_m(const std::vector<EstimatedTrajectory>& team,
 
 void write_tables(const fs::path& folder, const TeamRun& run, Stamp begin) {
   write_file(folder / "traffic.csv", traffic_csv(run.traffic));
-  write_file(folder / "known.csv", known_csv(run.known, begin));
+  write_file(folder / "agents.csv", agents_csv(run.known, begin));
   write_file(folder / "events.csv", events_csv(run.events, begin));
 }
 
 void read_tables(const fs::path& folder, Stamp begin, TeamRun& run) {
-  const Text traffic = read_text(folder / "traffic.csv"), known = read_text(folder / "known.csv"),
+  const Text traffic = read_text(folder / "traffic.csv"), known = read_text(folder / "agents.csv"),
              events = read_text(folder / "events.csv");
   CsvReader sent(traffic, {{"from", "to", "kind", "messages", "bytes", "lost"}});
   while (sent.next()) {
@@ -130,35 +164,80 @@ void read_tables(const fs::path& folder, Stamp begin, TeamRun& run) {
                    [](const auto& a, const auto& b) { return a.second.at < b.second.at; });
 }
 
-void write_results(const TeamRun& run, const RunParams& params, const MissionInput& given,
-                   const fs::path& folder, AgentFolders agents) {
-  std::map<std::vector<std::pair<std::string, std::uint64_t>>, RunOutput> results;  // by what is known
-  const RunOutput* most = nullptr;
-  std::size_t most_records = 0;
-  for (const auto& [agent, extents] : run.extents) {
-    std::vector<std::pair<std::string, std::uint64_t>> known;
-    std::size_t records = 0;
-    for (const auto& [robot, extent] : extents) {
-      known.emplace_back(robot, extent.records);
-      records += extent.records;
-    }
-    if (records == 0) continue;
-    auto found = results.find(known);
-    if (found == results.end())
-      found = results.emplace(std::move(known), estimate_of(run.logs.at(agent), params)).first;
-    if (agents == AgentFolders::kWritten) write_result(folder / "agents" / agent, found->second, given);
-    const Agreement agreement = evaluate(found->second.result, given);
-    std::cout << "robot " << agent << ": " << records << " records of " << extents.size() << " robots";
+namespace {
+
+/// Estimates from logs; those of the same records are made once.
+class Results {
+ public:
+  Results(const RunParams& params, const MissionInput& given) : params_(params), given_(given) {}
+
+  const RunOutput& of(const std::vector<RobotLog>& logs) {
+    std::vector<std::pair<std::string, std::size_t>> key;
+    for (const RobotLog& log : logs)
+      if (!log.records.empty()) key.emplace_back(log.robot, log.records.size());
+    auto found = made_.find(key);
+    if (found == made_.end()) found = made_.emplace(std::move(key), estimate_of(logs, params_)).first;
+    return found->second;
+  }
+
+  void write(const fs::path& folder, const RunOutput& run, const AgentsResult* agents,
+             nlohmann::ordered_json summary = nullptr) const {
+    RunDocuments documents = documents_of(run, given_, evaluate(run.result, given_), nullptr, agents);
+    documents.summary = std::move(summary);
+    write_run(folder, run.result, documents);
+  }
+
+  /// In a line, how well the records of an agent do.
+  void say(const std::string& agent, std::size_t records, std::size_t robots, const RunOutput& run) const {
+    const Agreement agreement = evaluate(run.result, given_);
+    std::cout << "robot " << agent << ": " << records << " records of " << robots << " robots";
     if (agreement.metrics) std::cout << error_text(*agreement.metrics);
     std::cout << '\n';
-    if (records > most_records) {
-      most_records = records;
-      most = &found->second;
-    }
   }
-  if (!most) throw InputError("team", 0, "no robot has said anything");
+
+ private:
+  const RunParams& params_;
+  const MissionInput& given_;
+  std::map<std::vector<std::pair<std::string, std::size_t>>, RunOutput> made_;
+};
+
+std::size_t records_of(const std::map<std::string, LogExtent>& extents) {
+  std::size_t records = 0;
+  for (const auto& [robot, extent] : extents) records += extent.records;
+  return records;
+}
+
+}  // namespace
+
+void write_results(const TeamRun& run, const RunParams& params, const MissionInput& given,
+                   const fs::path& folder, AgentFolders agents, Stamp begin) {
+  const std::vector<RobotLog> all = all_records(run);
+  if (all.empty()) throw InputError("team", 0, "no robot has said anything");
+  Results results(params, given);
+  for (const auto& [agent, extents] : run.extents) {
+    const std::size_t records = records_of(extents);
+    if (records == 0) continue;
+    const RunOutput& of = results.of(run.logs.at(agent));
+    results.say(agent, records, extents.size(), of);
+    if (agents == AgentFolders::kThere) continue;
+    const fs::path own = folder / "agents" / agent;
+    results.write(own, of, nullptr, summary_of(extents, run.counts.at(agent)));
+    write_file(own / "known.csv", known_csv(run.known, agent, begin));
+  }
   const AgentsResult known = agents_result(run);
-  write_result(folder, *most, given, &known);
+  results.write(folder, results.of(all), &known);
+}
+
+void write_agent(const TeamRun& run, const std::string& agent, const RunParams& params,
+                 const MissionInput& given, const fs::path& folder, Stamp begin) {
+  const auto& extents = run.extents.at(agent);
+  if (records_of(extents) == 0) throw InputError("agent", 0, "no robot has said anything");
+  Results results(params, given);
+  const RunOutput& of = results.of(run.logs.at(agent));
+  results.say(agent, records_of(extents), extents.size(), of);
+  const AgentsResult known = agents_result(run);
+  results.write(folder, of, &known, summary_of(extents, run.counts.at(agent)));
+  write_file(folder / "known.csv", known_csv(run.known, agent, begin));
 }
 
 }  // namespace radioslam::cli

@@ -279,7 +279,8 @@ void write_run(const std::filesystem::path& folder, const RunResult& result, con
     write_file(folder / "access_points.csv", format_access_points(result.access_points));
   if (!documents.graph_g2o.empty()) write_file(folder / "graph.g2o", documents.graph_g2o);
   if (!documents.report_html.empty()) write_file(folder / "report.html", documents.report_html);
-  const Json summary = summary_json(result, documents.metrics);
+  Json summary = summary_json(result, documents.metrics);
+  if (!documents.summary.is_null()) summary.update(documents.summary);
   write_file(folder / "summary.json",
              summary.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -217,12 +217,13 @@ void append_pose_fields(std::string& out, const std::optional<SE3>& pose) {
 }
 
 std::string format_uncertainty(const std::vector<RobotResult>& robots) {
-  std::string out = "robot,t_s,sigma_m,sigma_team_m\n";
+  std::string out = "robot,t_s,sigma_m,sigma_team_m,sigma_rad\n";
   for (const RobotResult& robot : robots)
     for (std::size_t k = 0; k < robot.sigma_position_m.size(); ++k) {
       out += robot.id + "," + format_stamp(robot.estimate[k].stamp);
       append_number(out += ',', robot.sigma_position_m[k]);
       append_number(out += ',', robot.sigma_team_m[k]);
+      append_number(out += ',', robot.sigma_rad[k]);
       out += '\n';
     }
   return out;
@@ -317,16 +318,19 @@ std::vector<MeasuredAoaResult> read_measured_aoa(const Text& text,
 }
 
 void read_uncertainty(const Text& text, std::span<EstimatedTrajectory> robots) {
-  CsvReader csv(text, CsvReader::Columns{{"robot", "t_s", "sigma_m"}, {"sigma_team_m"}});
+  CsvReader csv(text, CsvReader::Columns{{"robot", "t_s", "sigma_m"}, {"sigma_team_m", "sigma_rad"}});
   while (csv.next()) {
     EstimatedTrajectory& robot = robots[robot_of(csv, 0, robots).index()];
     const std::size_t k = robot.sigma_position_m.size();
     if (k >= robot.poses.size() || robot.poses[k].stamp != csv.stamp(1))
       csv.fail("the stamps of robot '" + robot.id + "' are not those of " + robot.id + ".tum");
     robot.sigma_position_m.push_back(csv.number(2));
-    if (csv.has(3)) robot.sigma_team_m.push_back(csv.number(3));
     if (robot.sigma_position_m.back() < 0) csv.fail("sigma_m must not be negative");
-    if (csv.has(3) && robot.sigma_team_m.back() < 0) csv.fail("sigma_team_m must not be negative");
+    for (auto [column, sigmas] : {std::pair(std::size_t{3}, &robot.sigma_team_m), {4, &robot.sigma_rad}}) {
+      if (!csv.has(column)) continue;
+      sigmas->push_back(csv.number(column));
+      if (sigmas->back() < 0) csv.fail("standard deviations must not be negative");
+    }
   }
   for (const EstimatedTrajectory& robot : robots)
     if (!robot.sigma_position_m.empty() && robot.sigma_position_m.size() != robot.poses.size())

@@ -2,7 +2,7 @@
 //   candidates.csv   robot_i,t_i_s,robot_j,t_j_s,distance_m,mahalanobis
 //   closures.csv     robot_i,t_i_s,robot_j,t_j_s,kind,status,statistic,reason,path_weights,x,y,z,qx,qy,qz,qw,
 //                    doubt
-//   uncertainty.csv  robot,t_s,sigma_m,sigma_team_m
+//   uncertainty.csv  robot,t_s,sigma_m,sigma_team_m,sigma_rad
 //   aoa.csv          t_s,receiver,transmitter,path,azimuth_rad,elevation_rad,sigma_rad,power_db
 //   access_points.csv   bssid,x_m,y_m,sigma_x_m,sigma_y_m,cov_xy,p0_dbm,exponent,sigma_db,readings,status,
 //                       sigma_p0_db,sigma_exponent,frequency_mhz,rival_x_m,rival_y_m

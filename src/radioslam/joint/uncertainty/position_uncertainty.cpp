@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "radioslam/base/statistics.hpp"
 #include "radioslam/geometry/alignment.hpp"
@@ -23,6 +24,8 @@ template JointGraph<SE2> graph_for_covariances(const JointGraph<SE2>&, const Mix
 template JointGraph<SE3> graph_for_covariances(const JointGraph<SE3>&, const MixtureParams&);
 
 namespace {
+
+constexpr double kAnyHeading_rad = std::numbers::pi / std::numbers::sqrt3;  // standard deviation
 
 /// Share of the time that each keyframe stands for: trajectories are compared at equal steps of time.
 std::vector<double> time_weights(const std::vector<Stamp>& stamps) {
@@ -111,10 +114,15 @@ double excess_of_residuals(RobotIndex robot, const std::pair<Stamp, Stamp>& stre
 template <class Pose>
 void add_uncertainty(std::vector<RobotResult>& robots, const JointGraph<Pose>& joint,
                      const TeamAlignment<Pose>& alignment, const Marginals<Pose>& marginals) {
+  constexpr int kTurns = Pose::kDof - Pose::kDim;
   for (std::size_t r = 0; r < robots.size(); ++r)
-    for (const PoseId i : joint.robots[r].poses)
+    for (const PoseId i : joint.robots[r].poses) {
+      const typename Pose::Jacobian covariance = marginals.pose(i);
       robots[r].sigma_position_m.push_back(
-          sigma_of(marginals.pose(i).template topLeftCorner<Pose::kDim, Pose::kDim>()));
+          sigma_of(covariance.template topLeftCorner<Pose::kDim, Pose::kDim>()));
+      robots[r].sigma_rad.push_back(
+          std::min(kAnyHeading_rad, sigma_of(covariance.template bottomRightCorner<kTurns, kTurns>())));
+    }
   for (const ComponentKeyframes& component : component_keyframes(joint, alignment)) {
     const auto covariances = position_covariances_in_team_gauge(marginals, joint.team.graph.poses,
                                                                 component.poses, component.weights);
@@ -152,7 +160,10 @@ void widen_by_unknown_motions(std::vector<RobotResult>& robots, const JointGraph
       const auto widen = [&](double& sigma_m, double by) {
         sigma_m = std::sqrt(sigma_m * sigma_m + by * by * added_m2);
       };
-      if (is_behind) widen(robots[r].sigma_position_m[k], 1);
+      if (is_behind) {
+        widen(robots[r].sigma_position_m[k], 1);
+        robots[r].sigma_rad[k] = kAnyHeading_rad;
+      }
       widen(robots[r].sigma_team_m[k], is_behind ? share : 1 - share);
     }
   }
@@ -194,6 +205,7 @@ void widen_by_rejected_closures(std::vector<RobotResult>& robots,
         if (t < stretch.first || stretch.second < t) continue;
         robot.sigma_position_m[k] *= ratio;
         robot.sigma_team_m[k] *= ratio;
+        robot.sigma_rad[k] = std::min(kAnyHeading_rad, robot.sigma_rad[k] * ratio);
       }
     }
   }

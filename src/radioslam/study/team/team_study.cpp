@@ -58,7 +58,7 @@ NetworkFaults faults_of(const TeamCase& of, const Mission& mission, std::uint64_
   if (of.partition_s == 0) return faults;
   const Stamp middle{begin_of(mission).ns + Stamp::from_seconds(of.path_m / kSpeed_mps / 2).ns};
   const std::int64_t half_ns = Stamp::from_seconds(of.partition_s / 2).ns;
-  faults.partition = {Stamp{middle.ns - half_ns}, Stamp{middle.ns + half_ns}};
+  faults.partition = Partition{Stamp{middle.ns - half_ns}, Stamp{middle.ns + half_ns}};
   return faults;
 }
 
