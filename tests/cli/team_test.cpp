@@ -31,7 +31,7 @@ TEST(Team, EndsWhereARunEndsThoughMuchIsLost) {
 }
 
 TEST(Team, AKilledRobotThatDoesNotComeBackHasNoResult) {
-  const auto& folder = drive();
+  const auto& folder = short_drive();
   const Outcome team =
       run({"team", "town", "-o", "without", "--kill", "b@12", "--partition", "2:4:b"}, folder.path());
   ASSERT_EQ(team.status, 0) << team.err;
