@@ -54,7 +54,7 @@ TEST_F(Poses, AreThoseOfTheRunAtKeyframesAndBetweenThem) {
   table << "t_s\n" << t[2] << "\n" << t[1] << "\n" << (t[1] + t[2]) / 2 << "\n";
   const auto rows = ask(table.str(), {"--robot", "b"});
   ASSERT_EQ(rows.size(), 3U) << answer_.err;
-  EXPECT_EQ(rows[0].size(), 11U);
+  EXPECT_EQ(rows[0].size(), 12U);
   EXPECT_EQ(rows[0][0], "b");
   EXPECT_NEAR(std::stod(rows[0][2]), x[2], 1e-9);
   EXPECT_NEAR(std::stod(rows[1][2]), x[1], 1e-9);
@@ -64,11 +64,13 @@ TEST_F(Poses, AreThoseOfTheRunAtKeyframesAndBetweenThem) {
               1e-6);
 }
 
-TEST_F(Poses, AreLeftOutWithANoteWhereTheRunHasNone) {
+TEST_F(Poses, AreEmptyWithANoteWhereTheRunHasNone) {
   const auto rows = ask("robot,t_s\na,1e6\na,5\nb,5\n");
   EXPECT_EQ(answer_.status, 0);
-  EXPECT_EQ(rows.size(), 2U);
-  EXPECT_NE(answer_.err.find("robot a: 1 times are left out"), std::string::npos) << answer_.err;
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"a", "1000000", "", "", "", "", "", "", "", "", "", ""}));
+  EXPECT_GT(std::stod(rows[1][10]), 0);
+  EXPECT_NE(answer_.err.find("robot a: 1 times have no pose"), std::string::npos) << answer_.err;
 }
 
 TEST_F(Poses, RefuseWhatTheyDoNotKnow) {

@@ -41,6 +41,7 @@ TEST(WidenByUnknownMotions, StatesWhatMayHaveHappened) {
     for (const PoseId pose : joint.robots[0].poses) {
       robots[0].sigma_position_m.push_back(sigma_of(marginals->pose(pose).topLeftCorner<3, 3>()));
       robots[0].sigma_team_m.push_back(0);
+      robots[0].sigma_rad.push_back(0);
     }
     const std::vector<double> before = robots[0].sigma_position_m;
     widen_by_unknown_motions(robots, joint, *marginals);
@@ -48,8 +49,10 @@ TEST(WidenByUnknownMotions, StatesWhatMayHaveHappened) {
       const double second = joint.robots[0].stamps[k].seconds();
       if (second < kUnseen) {
         EXPECT_EQ(robots[0].sigma_position_m[k], before[k]);
+        EXPECT_EQ(robots[0].sigma_rad[k], 0);
       } else {
         EXPECT_GT(robots[0].sigma_position_m[k], 0.99 * sigma_m) << second;
+        EXPECT_NEAR(robots[0].sigma_rad[k], std::numbers::pi / std::sqrt(3), 1e-12) << "any heading";
         EXPECT_GT(robots[0].sigma_position_m[k], 0.99 * (second - kUnseen)) << "heading, " << second;
       }
     }

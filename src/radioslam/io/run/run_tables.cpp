@@ -223,7 +223,8 @@ std::string format_uncertainty(const std::vector<RobotResult>& robots) {
       out += robot.id + "," + format_stamp(robot.estimate[k].stamp);
       append_number(out += ',', robot.sigma_position_m[k]);
       append_number(out += ',', robot.sigma_team_m[k]);
-      append_number(out += ',', robot.sigma_rad[k]);
+      out += ',';
+      if (!robot.sigma_rad.empty()) append_number(out, robot.sigma_rad[k]);
       out += '\n';
     }
   return out;
@@ -327,7 +328,7 @@ void read_uncertainty(const Text& text, std::span<EstimatedTrajectory> robots) {
     robot.sigma_position_m.push_back(csv.number(2));
     if (robot.sigma_position_m.back() < 0) csv.fail("sigma_m must not be negative");
     for (auto [column, sigmas] : {std::pair(std::size_t{3}, &robot.sigma_team_m), {4, &robot.sigma_rad}}) {
-      if (!csv.has(column)) continue;
+      if (!csv.given(column)) continue;
       sigmas->push_back(csv.number(column));
       if (sigmas->back() < 0) csv.fail("standard deviations must not be negative");
     }
