@@ -147,6 +147,43 @@ TEST(SequenceClosures, UncertainOnesAreRejected) {
   }
 }
 
+std::vector<double> numbers_of(const std::vector<SequenceClosure>& closures) {
+  std::vector<double> all;
+  for (const auto& [candidate, fit] : closures)
+    for (const double x :
+         {static_cast<double>(candidate.node_i), static_cast<double>(candidate.node_j), candidate.similarity,
+          fit.T_j_i.translation().x(), fit.T_j_i.translation().y(), fit.T_j_i.angle(), fit.residual_m,
+          fit.covariance.determinant(), static_cast<double>(fit.status)})
+      all.push_back(x);
+  return all;
+}
+
+TEST(SequenceClosures, MatchedBeforeAreTheSameAndNotMatchedAgain) {
+  const auto rounds = two_rounds(), way = bent_way(1, 1, 0, 60, 0.5);
+  const auto known = [&](std::size_t a, std::size_t b) {
+    return lawful_radio({{rounds.begin(), rounds.begin() + static_cast<std::ptrdiff_t>(a)},
+                         {way.begin(), way.begin() + static_cast<std::ptrdiff_t>(b)}});
+  };
+  auto radio = known(10, 10);
+  auto matched = match_sequences(radio, {});
+  std::size_t taken = 0;
+  for (const auto& [a, b] : {std::pair(60, 10), {64, 31}, {100, 33}, {100, 59}, {121, 60}}) {
+    const auto more = known(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    const auto from_nothing = match_sequences(more, {});
+    const EarlierSequences earlier{radio, matched};
+    auto next = match_sequences(more, {}, &earlier);
+    EXPECT_EQ(numbers_of(next), numbers_of(from_nothing)) << a << " " << b;
+    auto marked = matched;
+    for (SequenceClosure& closure : marked) closure.fit.residual_m = -1;
+    const EarlierSequences earlier_marked{radio, marked};
+    for (const SequenceClosure& closure : match_sequences(more, {}, &earlier_marked))
+      taken += closure.fit.residual_m < 0 ? 1U : 0U;
+    radio = more;
+    matched = std::move(next);
+  }
+  EXPECT_GT(taken, matched.size() / 2);
+}
+
 TEST(SequenceClosures, AreTheSameForAnyNumberOfThreads) {
   const auto radio = lawful_radio({two_rounds(), bent_way(1, 1, 0, 40, 0.5)});
   const auto numbers = [&] {

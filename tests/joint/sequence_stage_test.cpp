@@ -37,7 +37,7 @@ TEST(SequenceStage, AcceptedOnesHoldInTruth) {
     const auto radio = measure_radio(mission, {}, {});
     auto joint = build_joint_graph<SE2>(mission, {}, {});
     const std::size_t before = joint.team.graph.relative_poses.size();
-    const auto closures = add_sequence_closures(joint, radio, {});
+    const auto closures = add_sequence_closures(joint, radio, match_sequences(2, radio, {}, nullptr), {});
     const auto factors =
         factors_by_measurement(joint.origins.relative_poses, FactorSource::kSequence, closures.size());
     for (std::size_t c = 0; c < closures.size(); ++c) {

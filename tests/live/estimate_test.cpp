@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/small_carpark.hpp"
+#include "radioslam/base/parallel.hpp"
 #include "radioslam/front_end/replay.hpp"
 #include "radioslam/joint/team_continuation.hpp"
 #include "radioslam/pipeline/pipeline.hpp"
@@ -26,14 +28,19 @@ const Simulation& town() {
   return simulated;
 }
 
-/// The town as it was known at this time.
-LoggedMission known_at(Stamp now) {
-  static const auto robots = replay(town().mission, {}, {});
+/// What logs said by this time.
+LoggedMission known_at(Stamp now, const std::vector<ReplayedRobot>& robots) {
   GrowingLogs logs;
   for (const ReplayedRobot& robot : robots)
     for (std::size_t k = 0; k < robot.known.size() && robot.known[k] <= now; ++k)
       logs.add(robot.log.robot, *decode_record(robot.log.records[k]));
   return logs.mission();
+}
+
+/// The town as it was known at this time.
+LoggedMission known_at(Stamp now) {
+  static const auto robots = replay(town().mission, {}, {});
+  return known_at(now, robots);
 }
 
 Stamp end() { return town().mission.robots[0].odometry.back().stamp; }
@@ -108,6 +115,74 @@ TEST(Estimate, OfOtherRobotsIsMadeAnew) {
   known.mission.robots[2].id = "z";
   EXPECT_FALSE(extended(before.team, build_joint_graph<SE2>(known.mission, {}, {})));
   EXPECT_NE(estimated(known, &before, Effort::kExtend).effort, Effort::kExtend);
+}
+
+/// The car park's estimates at these shares of the mission, each judged from the one before.
+std::vector<TeamSolution<SE2>> judged_carpark(const std::vector<double>& shares) {
+  CarparkParams params = short_drives();
+  params.robots = 3;
+  const Mission mission = simulate_carpark(params, 5).mission;
+  const auto robots = replay(mission, {}, {});
+  const auto& odometry = mission.robots[0].odometry;
+  const double whole_s = seconds_between(odometry.front().stamp, odometry.back().stamp);
+  std::vector<TeamSolution<SE2>> solutions;
+  for (const double share : shares) {
+    const Stamp now{odometry.front().stamp.ns + Stamp::from_seconds(share * whole_s).ns};
+    solutions.push_back(estimated(known_at(now, robots), solutions.empty() ? nullptr : &solutions.back(),
+                                  solutions.empty() ? Effort::kAlign : Effort::kJudge));
+  }
+  return solutions;
+}
+
+TEST(Estimate, FitsFingerprintsAgainWhenTheyHaveGrownByHalf) {
+  const auto solutions = judged_carpark({0.4, 0.45, 0.55, 0.7, 0.9});
+  const auto fitted = [&](std::size_t k) { return solutions[k].radio->fitted; };
+  for (std::size_t k = 1; k < solutions.size(); ++k)
+    EXPECT_GT(solutions[k].radio->nodes.size(), solutions[k - 1].radio->nodes.size());
+  EXPECT_EQ(fitted(0), solutions[0].radio->nodes.size());
+  EXPECT_EQ(fitted(1), fitted(0));
+  EXPECT_EQ(fitted(2), fitted(0));
+  EXPECT_EQ(fitted(3), solutions[3].radio->nodes.size());
+  EXPECT_EQ(fitted(4), fitted(3));
+}
+
+/// What was carried on is what comparing all from nothing gives, by the same models.
+TEST(Estimate, CarriesWhatFingerprintsWereCompared) {
+  for (const TeamSolution<SE2>& solution : judged_carpark({0.5, 0.52, 0.6, 0.72})) {
+    const RadioMeasurements& radio = *solution.radio;
+    ASSERT_TRUE(radio.near_similarity.joined_from());
+    std::vector<Fingerprint> all;
+    for (std::size_t n = 0; n < radio.nodes.size(); ++n) all.push_back(radio.at(n).fingerprint);
+    RadioMeasurements anew = radio;
+    anew.near_similarity = TeamSimilarity(all, SimilarityMeasure::kSorensen, {});
+    const auto near = propose_near_closures(radio, 100, {}), near_anew = propose_near_closures(anew, 100, {});
+    ASSERT_EQ(near.size(), near_anew.size());
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      EXPECT_EQ(near[k].node_i, near_anew[k].node_i);
+      EXPECT_EQ(near[k].node_j, near_anew[k].node_j);
+      EXPECT_EQ(near[k].similarity, near_anew[k].similarity);
+    }
+    const auto& carried = solution.team.measured.sequences;
+    const auto matched = match_sequences(anew, SequenceClosureParams{});
+    ASSERT_EQ(carried.size(), matched.size());
+    ASSERT_GT(carried.size(), 10U);
+    for (std::size_t k = 0; k < matched.size(); ++k) {
+      EXPECT_EQ(carried[k].candidate.node_i, matched[k].candidate.node_i);
+      EXPECT_EQ(carried[k].candidate.node_j, matched[k].candidate.node_j);
+      EXPECT_EQ(carried[k].fit.status, matched[k].fit.status);
+      EXPECT_EQ(carried[k].fit.residual_m, matched[k].fit.residual_m);
+      EXPECT_EQ(carried[k].fit.covariance, matched[k].fit.covariance);
+    }
+  }
+}
+
+TEST(Estimate, OfFingerprintsDoesNotDependOnTheNumberOfThreads) {
+  const std::vector<double> shares{0.5, 0.6, 0.72, 1};
+  set_thread_count(1);
+  const auto one = judged_carpark(shares);
+  set_thread_count(0);
+  const auto many = judged_carpark(shares);
+  for (std::size_t k = 0; k < shares.size(); ++k) EXPECT_EQ(largest_move_m(one[k], many[k]), 0);
 }
 
 /// Where two alignments are about as likely, the robots stay apart; else they share a frame.

@@ -39,17 +39,29 @@ FingerprintClosure far_closure(const SimilarPair& pair, const Eigen::Matrix3Xd& 
           1,      true};
 }
 
+/// Lower bound of both distance limits.
+double least_limit_m(const RadioMeasurements& radio, const FingerprintClosureParams& params) {
+  return params.nearest_factor * radio.near_model.smallest_distance_m().value_or(0);
+}
+
 }  // namespace
+
+std::optional<double> least_near_similarity(const RadioMeasurements& radio,
+                                            const FingerprintClosureParams& params) {
+  const double farthest_m =
+      std::max({least_limit_m(radio, params), params.between_distance_m, params.within_distance_m});
+  const auto minimum = radio.near_model.min_similarity_below(farthest_m);
+  return minimum ? std::optional(std::max(*minimum, kAnySimilarity)) : std::nullopt;
+}
 
 std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& radio,
                                                       double max_trusted_path_m,
                                                       const FingerprintClosureParams& params) {
-  const double least = params.nearest_factor * radio.near_model.smallest_distance_m().value_or(0);
-  const double farthest = std::max({least, params.between_distance_m, params.within_distance_m});
-  const auto minimum = radio.near_model.min_similarity_below(farthest);
+  const double least = least_limit_m(radio, params);
+  const auto minimum = least_near_similarity(radio, params);
   std::vector<FingerprintClosure> closures;
   if (!minimum) return closures;
-  radio.near_similarity.for_each_pair(std::max(*minimum, kAnySimilarity), [&](const SimilarPair& pair) {
+  radio.near_similarity.for_each_pair(*minimum, [&](const SimilarPair& pair) {
     const auto limit = distance_limit(radio, pair.i, pair.j, max_trusted_path_m, params);
     if (!limit) return;
     const double similarity = static_cast<double>(pair.similarity);
@@ -68,7 +80,9 @@ std::vector<FingerprintClosure> propose_layout_closures(const KnownStarts& start
                                                         const FingerprintClosureParams& params) {
   std::vector<FingerprintClosure> closures;
   const auto most = static_cast<std::size_t>(params.layout_pairs);
-  if (!radio.layout_model || most == 0) return closures;
+  const bool all_known =
+      std::all_of(starts.begin(), starts.end(), [](const auto& s) { return s.has_value(); });
+  if (!radio.layout_model || most == 0 || all_known) return closures;
   const auto for_each_far_pair = [&](const auto& visit) {
     radio.layout_similarity.for_each_pair(layout.min_similarity, [&](const SimilarPair& pair) {
       const RobotIndex a = radio.nodes[pair.i].robot, b = radio.nodes[pair.j].robot;

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "radioslam/base/fields.hpp"
@@ -50,6 +51,10 @@ struct FingerprintClosure {
   double weight = 1;          ///< fraction of an independent measurement that the pair counts as
   bool keeps_layout = false;  ///< distant pair of two robots, one of which has no known start
 };
+
+/// Similarity that every close pair reaches; nothing where no pair is close.
+std::optional<double> least_near_similarity(const RadioMeasurements& radio,
+                                            const FingerprintClosureParams& params);
 
 /// Close pairs: predicted distance below nu.
 std::vector<FingerprintClosure> propose_near_closures(const RadioMeasurements& radio,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "radioslam/base/parallel.hpp"
 #include "radioslam/geometry/linear_algebra.hpp"
@@ -77,6 +79,40 @@ void drop_uncertain(std::vector<SequenceClosure>& closures, const SequenceClosur
       closure.fit.status = SequenceStatus::kUncertain;
 }
 
+/// What is known of windows from matches made earlier.
+class EarlierMatches {
+ public:
+  EarlierMatches(const RadioMeasurements& radio, const EarlierSequences& earlier)
+      : earlier_(earlier), number_(earlier_nodes(radio, earlier.radio)) {}
+
+  /// The match of the same two windows; null if there is none.
+  const SequenceFit* of(const SequenceCandidate& candidate, const SequenceWindow& i, const SequenceWindow& j,
+                        double half_path_m) const {
+    const auto node_i = number_[candidate.node_i], node_j = number_[candidate.node_j];
+    if (!node_i || !node_j) return nullptr;
+    const auto known =
+        std::lower_bound(earlier_.matched.begin(), earlier_.matched.end(), std::pair(*node_i, *node_j),
+                         [](const SequenceClosure& closure, const auto& nodes) {
+                           return std::pair(closure.candidate.node_i, closure.candidate.node_j) < nodes;
+                         });
+    const bool is_known = known != earlier_.matched.end() && known->candidate.node_i == *node_i &&
+                          known->candidate.node_j == *node_j;
+    if (!is_known || !is_same(i, *node_i, half_path_m) || !is_same(j, *node_j, half_path_m)) return nullptr;
+    return &known->fit;
+  }
+
+ private:
+  bool is_same(const SequenceWindow& window, std::size_t middle, double half_path_m) const {
+    const SequenceWindow before = window_around(earlier_.radio, middle, half_path_m);
+    return std::equal(window.nodes.begin(), window.nodes.end(), before.nodes.begin(), before.nodes.end(),
+                      [&](std::size_t now, std::size_t then) { return number_[now] == then; }) &&
+           window.position_m == before.position_m;
+  }
+
+  const EarlierSequences& earlier_;
+  EarlierNumbers number_;
+};
+
 }  // namespace
 
 std::string_view reason(SequenceStatus status) {
@@ -115,22 +151,38 @@ std::vector<SequenceCandidate> sequence_candidates(const RadioMeasurements& radi
   return candidates;
 }
 
-std::vector<SequenceClosure> propose_sequence_closures(const RadioMeasurements& radio,
-                                                       const SequenceClosureParams& params) {
-  std::vector<SequenceClosure> closures;
+std::vector<SequenceClosure> match_sequences(const RadioMeasurements& radio,
+                                             const SequenceClosureParams& params,
+                                             const EarlierSequences* earlier) {
+  std::vector<SequenceClosure> matched;
   for (const SequenceCandidate& candidate : sequence_candidates(radio, params))
-    closures.push_back({candidate, {}});
+    matched.push_back({candidate, {}});
+  std::optional<EarlierMatches> known;
+  if (earlier) known.emplace(radio, *earlier);
   const double half_m = params.window_path_m / 2;
-  parallel_for(closures.size(), 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(matched.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const auto& [node_i, node_j, similarity] = closures[k].candidate;
-      closures[k].fit = match_windows(radio, window_around(radio, node_i, half_m),
-                                      window_around(radio, node_j, half_m), params.match);
+      auto& [candidate, fit] = matched[k];
+      const SequenceWindow i = window_around(radio, candidate.node_i, half_m);
+      const SequenceWindow j = window_around(radio, candidate.node_j, half_m);
+      const SequenceFit* before = known ? known->of(candidate, i, j, half_m) : nullptr;
+      fit = before ? *before : match_windows(radio, i, j, params.match);
     }
   });
-  drop_uncertain(closures, params);
-  keep_separate(radio, closures, params.window_path_m);
-  return closures;
+  return matched;
+}
+
+std::vector<SequenceClosure> choose_sequences(const RadioMeasurements& radio,
+                                              std::vector<SequenceClosure> matched,
+                                              const SequenceClosureParams& params) {
+  drop_uncertain(matched, params);
+  keep_separate(radio, matched, params.window_path_m);
+  return matched;
+}
+
+std::vector<SequenceClosure> propose_sequence_closures(const RadioMeasurements& radio,
+                                                       const SequenceClosureParams& params) {
+  return choose_sequences(radio, match_sequences(radio, params), params);
 }
 
 }  // namespace radioslam

@@ -62,7 +62,24 @@ std::string_view reason(SequenceStatus status);
 std::vector<SequenceCandidate> sequence_candidates(const RadioMeasurements& radio,
                                                    const SequenceClosureParams& params);
 
-/// Every candidate with its match and status, in the order of candidates. Multithreaded.
+/// Candidates as they were matched when less was known, by the same model and offsets.
+struct EarlierSequences {
+  const RadioMeasurements& radio;
+  const std::vector<SequenceClosure>& matched;
+};
+
+/// Every candidate with its match alone, in the order of candidates. Those whose windows have not changed
+/// since `earlier` are not matched again. Multithreaded.
+std::vector<SequenceClosure> match_sequences(const RadioMeasurements& radio,
+                                             const SequenceClosureParams& params,
+                                             const EarlierSequences* earlier = nullptr);
+
+/// Every match with its status beside the others.
+std::vector<SequenceClosure> choose_sequences(const RadioMeasurements& radio,
+                                              std::vector<SequenceClosure> matched,
+                                              const SequenceClosureParams& params);
+
+/// Every candidate with its match and status, in the order of candidates.
 std::vector<SequenceClosure> propose_sequence_closures(const RadioMeasurements& radio,
                                                        const SequenceClosureParams& params);
 

@@ -57,13 +57,20 @@ std::optional<std::string> sequence_note(int dimension, const RadioMeasurements&
   return "sequence closures were skipped: they are poses in the plane, and the mission has three dimensions";
 }
 
+std::vector<SequenceClosure> match_sequences(int dimension, const RadioMeasurements& radio,
+                                             const SequenceStageParams& params,
+                                             const EarlierSequences* earlier) {
+  if (dimension != 2 || !params.enabled) return {};
+  return match_sequences(radio, params.closure, earlier);
+}
+
 template <class Pose>
 std::vector<VerifiedClosure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                                                   const std::vector<SequenceClosure>& matched,
                                                    const SequenceStageParams& params) {
   std::vector<VerifiedClosure> closures;
   if constexpr (Pose::kDim == 2) {
-    if (!params.enabled) return closures;
-    for (const SequenceClosure& sequence : propose_sequence_closures(radio, params.closure)) {
+    for (const SequenceClosure& sequence : choose_sequences(radio, matched, params.closure)) {
       closures.push_back(at_keyframes(joint, radio, sequence));
       const auto& [closure, judgement] = closures.back();
       if (judgement.status != ClosureStatus::kAccepted) continue;
@@ -75,9 +82,12 @@ std::vector<VerifiedClosure> add_sequence_closures(JointGraph<Pose>& joint, cons
   return closures;
 }
 
-template std::vector<VerifiedClosure> add_sequence_closures(JointGraph<SE2>&, const RadioMeasurements&,
-                                                            const SequenceStageParams&);
-template std::vector<VerifiedClosure> add_sequence_closures(JointGraph<SE3>&, const RadioMeasurements&,
-                                                            const SequenceStageParams&);
+#define RADIOSLAM_SEQUENCES(Pose)                                                                          \
+  template std::vector<VerifiedClosure> add_sequence_closures(JointGraph<Pose>&, const RadioMeasurements&, \
+                                                              const std::vector<SequenceClosure>&,         \
+                                                              const SequenceStageParams&);
+RADIOSLAM_SEQUENCES(SE2)
+RADIOSLAM_SEQUENCES(SE3)
+#undef RADIOSLAM_SEQUENCES
 
 }  // namespace radioslam

@@ -35,10 +35,16 @@ struct SequenceStageParams {
 std::optional<std::string> sequence_note(int dimension, const RadioMeasurements& radio,
                                          const SequenceStageParams& params);
 
-/// Finds sequence closures, at keyframes, and adds the accepted ones to the graph; returns all candidates.
-/// The statistic of those rejected is their mean residual in metres.
+/// Matches sequences, or none where they are not asked for.
+std::vector<SequenceClosure> match_sequences(int dimension, const RadioMeasurements& radio,
+                                             const SequenceStageParams& params,
+                                             const EarlierSequences* earlier);
+
+/// Chooses among matched sequences, moves them to keyframes, and adds the accepted ones to the graph; returns
+/// all. The statistic of those rejected is their mean residual in metres.
 template <class Pose>
 std::vector<VerifiedClosure> add_sequence_closures(JointGraph<Pose>& joint, const RadioMeasurements& radio,
+                                                   const std::vector<SequenceClosure>& matched,
                                                    const SequenceStageParams& params);
 
 }  // namespace radioslam

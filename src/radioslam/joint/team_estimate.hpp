@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "radioslam/closure/fingerprint_closures.hpp"
+#include "radioslam/closure/sequence_closures.hpp"
 #include "radioslam/graph/optimizer.hpp"
 #include "radioslam/joint/closures/closure.hpp"
 #include "radioslam/joint/joint_graph.hpp"
@@ -27,6 +28,7 @@ struct TeamMeasurements {
   KnownStarts starts = {};  ///< as the mission states them
   ByOrigin<Closure> closures = {};
   std::vector<FingerprintClosure> fingerprint_closures = {};
+  std::vector<SequenceClosure> sequences = {};  ///< as matched
 };
 
 /// What the estimate says of the measurements.

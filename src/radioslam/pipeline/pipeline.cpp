@@ -270,7 +270,9 @@ TeamEstimate<Pose> align_team(const RunSetup& run, TeamEstimate<Pose> team, cons
   if (has_fixes(run.mission)) timed("position fixes", align_by_fixes<Pose>, run, team);
   timed("team frame", align_by_links_or_fingerprints<Pose>, run, team, before, search);
   timed("closures", close_by_fingerprints<Pose>, run, team);
-  append(timed("sequences", add_sequence_closures<Pose>, joint, run.radio, params.sequence),
+  team.measured.sequences = timed(
+      "sequences", [&] { return match_sequences(Pose::kDim, run.radio, params.sequence, run.sequences); });
+  append(add_sequence_closures(joint, run.radio, team.measured.sequences, params.sequence),
          team.measured.closures.sequences, team.judgement.closures.sequences);
   team.solution =
       timed("optimise", optimize_robustly<Pose>, joint, params.robust, params.optimizer, run.progress);
@@ -437,10 +439,15 @@ std::optional<TeamSolution<Pose>> extend(const RunSetup& run, const TeamSolution
   return TeamSolution<Pose>{*std::move(team), last.radio, last.places, Effort::kExtend, last.weight_by_links};
 }
 
-std::size_t fingerprints_of(const Mission& mission) {
-  std::size_t count = 0;
-  for (const Robot& robot : mission.robots) count += robot.wifi.size();
-  return count;
+/// Its fingerprints joined from the least similarity that closures and sequences ask for.
+RadioMeasurements joined(RadioMeasurements radio, int dimension, const RunParams& params) {
+  double minimum = least_near_similarity(radio, params.closure).value_or(1);
+  if (dimension == 2 && params.sequence.enabled)
+    minimum = std::min(minimum, params.sequence.closure.min_similarity);
+  const bool is_layout = params.radio.measure == params.radio.layout_measure;
+  radio.near_similarity = radio.near_similarity.joined(std::max(minimum, kAnySimilarity));
+  if (is_layout) radio.layout_similarity = radio.near_similarity;
+  return radio;
 }
 
 }  // namespace
@@ -448,7 +455,6 @@ std::size_t fingerprints_of(const Mission& mission) {
 template <class Pose>
 TeamSolution<Pose> estimate(const TeamView& view, const TeamSolution<Pose>* last, Effort effort,
                             const RunParams& params, const RunOptions& options, const Progress& progress) {
-  constexpr double kRefitGrowth = 1.25;  // of the number of fingerprints
   const Mission& recorded = view.logged.mission;
   const bool continues = last && are_same_robots(recorded.robots, last->team.joint.robots);
   StageClock timed;
@@ -458,15 +464,18 @@ TeamSolution<Pose> estimate(const TeamView& view, const TeamSolution<Pose>* last
     const RunSetup run{recorded, *last->radio, params, options, progress, timed, nullptr};
     if (auto extended = extend(run, *last)) return *std::move(extended);
   }
-  const bool has_grown = !continues || static_cast<double>(fingerprints_of(recorded)) >
-                                           kRefitGrowth * static_cast<double>(last->radio->nodes.size());
-  const auto radio =
-      has_grown ? std::make_shared<const RadioMeasurements>(measure_radio(recorded, params.radio, progress))
-                : last->radio;
+  std::optional<RadioMeasurements> continued;
+  if (continues) continued = continue_radio(*last->radio, recorded, params.radio);
+  std::optional<EarlierSequences> sequences;
+  if (continued) sequences.emplace(EarlierSequences{*last->radio, last->team.measured.sequences});
+  const auto radio = std::make_shared<const RadioMeasurements>(
+      continued ? *std::move(continued)
+                : joined(measure_radio(recorded, params.radio, progress), recorded.dimension, params));
   const auto known = use_known_access_points(recorded, *radio, params.access_points);
   const Mission& mission = known.mission ? *known.mission : recorded;
   const MapWitness maps(mission, input.scans);
-  const RunSetup run{mission, *radio, params, options, progress, timed, &maps};
+  const RunSetup run{mission,  *radio, params, options,
+                     progress, timed,  &maps,  sequences ? &*sequences : nullptr};
   const bool searches = !last || effort == Effort::kAlign;
   auto aligned =
       align_team<Pose>(run, build_team<Pose>(run, nullptr, input.scans), last ? &last->team : nullptr,

@@ -80,6 +80,7 @@ struct RunSetup {
   const Progress& progress;
   StageClock& timed;
   const MapWitness* maps = nullptr;  ///< what scans say of closures between robots; null: none are asked
+  const EarlierSequences* sequences = nullptr;  ///< matched before; null: none
 };
 
 /// The joint graph of the mission, or of `graph` where the team comes as one, without any relation of the

@@ -112,7 +112,9 @@ Groups group_robots(const KnownStarts& starts, const RadioMeasurements& radio, c
     if (known) groups.join(*known, r);
     known = known.value_or(r);
   }
-  if (!radio.layout_model) return groups;
+  const bool all_known =
+      std::all_of(starts.begin(), starts.end(), [](const auto& s) { return s.has_value(); });
+  if (!radio.layout_model || all_known) return groups;
   CommonAccessPoints common;
   radio.layout_similarity.for_each_pair(params.min_similarity, [&](const SimilarPair& pair) {
     const std::size_t a = radio.nodes[pair.i].robot.index(), b = radio.nodes[pair.j].robot.index();

@@ -1,6 +1,9 @@
 // Fingerprint measurements of a mission: fingerprints of every robot at their odometry poses, their
 // similarities, and the distance models trained on the robots' own odometry. Computed before the team frame
 // is known.
+//
+// As a mission goes on, models and device offsets stay until there are half as many fingerprints again, and
+// only new fingerprints are compared. The last one of a robot, not complete yet, is another one later.
 #pragma once
 
 #include <optional>
@@ -61,9 +64,11 @@ struct RadioMeasurements {
   TeamSimilarity near_similarity;       ///< over nodes, by `measure`
   TeamSimilarity layout_similarity;     ///< over nodes, by `layout_measure`
   DistanceModel near_model;
-  std::optional<MedianModel> layout_model;  ///< absent with too few training samples
-  std::optional<DecayModel> decay_model;    ///< the same samples; absent with too few informative ones
-  RssiOffsets rssi_offsets = {};            ///< per robot; already subtracted from its fingerprints
+  std::optional<MedianModel> layout_model;      ///< absent with too few training samples
+  std::optional<DecayModel> decay_model;        ///< the same samples; absent with too few informative ones
+  RssiOffsets rssi_offsets = {};                ///< per robot; already subtracted from its fingerprints
+  std::vector<std::string> access_points = {};  ///< names by index, as in the mission
+  std::size_t fitted = 0;                       ///< fingerprints that models and offsets were fitted to
 
   const PlacedFingerprint& at(std::size_t node) const {
     return robots[nodes[node].robot.index()][nodes[node].index];
@@ -71,5 +76,14 @@ struct RadioMeasurements {
 };
 
 RadioMeasurements measure_radio(const Mission& mission, const RadioParams& params, const Progress& progress);
+
+/// The same when more is known of the mission, by the models and offsets of `before`, whose near similarity
+/// is joined. Nothing if it is time to fit them again. `mission`: has the same robots.
+std::optional<RadioMeasurements> continue_radio(const RadioMeasurements& before, const Mission& mission,
+                                                const RadioParams& params);
+
+/// For every node the number that the same fingerprint had in `before`, measured by the same offsets when
+/// less was known of the same robots.
+EarlierNumbers earlier_nodes(const RadioMeasurements& radio, const RadioMeasurements& before);
 
 }  // namespace radioslam
