@@ -56,7 +56,10 @@ radioslam_room(io
     ros/ros_collector.cpp
     ros/ros_database.cpp
     ros/ros_definition.cpp
+    ros/radioslam_messages.cpp
     ros/ros_import.cpp
+    ros/ros_names.cpp
+    ros/ros_output.cpp
     ros/ros_ranges.cpp
     ros/ros_recording.cpp
     ros/ros_scans.cpp

@@ -77,10 +77,12 @@ class FastDdsPeer {
   FastDdsPeer(const FastDdsPeer&) = delete;
   FastDdsPeer& operator=(const FastDdsPeer&) = delete;
 
-  void open_writer(const std::string& topic, const std::string& type) {
+  /// `keeps`: late readers get what was sent before, as of /tf_static.
+  void open_writer(const std::string& topic, const std::string& type, bool keeps = false) {
     fast::DataWriterQos qos = fast::DATAWRITER_QOS_DEFAULT;
     qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
-    qos.durability().kind = fast::VOLATILE_DURABILITY_QOS;  // as in ROS 2; Fast DDS keeps samples by default
+    // As in ROS 2; Fast DDS keeps samples by default.
+    qos.durability().kind = keeps ? fast::TRANSIENT_LOCAL_DURABILITY_QOS : fast::VOLATILE_DURABILITY_QOS;
     qos.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;
     qos.history().depth = 20;
     qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;

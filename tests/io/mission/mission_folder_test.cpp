@@ -71,6 +71,23 @@ TEST(ReadMission, NeedsOnlyMissionYamlAndOdometry) {
   EXPECT_TRUE(mission.robots[0].wifi.empty());
 }
 
+TEST(ReadMission, KnowsTheNamesOfATeamThatHasRecordedNothing) {
+  Files files = example_mission();
+  std::erase_if(files, [](const auto& file) {
+    return file.first != "mission.yaml" && file.first != "radio/anchors.csv";
+  });
+  const TemporaryFolder folder;
+  write_files(folder, files);
+  EXPECT_THROW(read_mission(folder.path()), InputError);
+  const MissionNames names = read_mission_names(folder.path());
+  const Mission whole = read_folder(example_mission());
+  ASSERT_EQ(names.mission.robots.size(), whole.robots.size());
+  EXPECT_EQ(names.mission.robots[1].odometry_noise.sigma_yaw_per_rad, 0.3);
+  ASSERT_EQ(names.mission.anchors.size(), whole.anchors.size());
+  EXPECT_GT(names.mission.anchors.size(), 0U);
+  EXPECT_EQ(names.antennas.size(), 2U);
+}
+
 TEST(ReadMission, ReadsByteOrderMarksAndCrLfAlike) {
   Files windows;
   for (const auto& [name, content] : example_mission()) {

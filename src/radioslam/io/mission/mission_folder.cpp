@@ -221,6 +221,16 @@ Mission read_mission(const fs::path& folder) {
   return std::move(file.mission);
 }
 
+MissionNames read_mission_names(const fs::path& folder) {
+  check_is_mission(folder);
+  const std::string name = fs::weakly_canonical(folder).filename().string();
+  MissionFile file = read_mission_yaml(read_text(folder / "mission.yaml"), name);
+  with_file(folder / kAnchors, [&](const Text& text) {
+    file.mission.anchors = read_anchors(text, names_of(file.mission), file.mission.dimension);
+  });
+  return {std::move(file.mission), std::move(file.antennas)};
+}
+
 RobotTruth read_robot_truth(const fs::path& file, const std::string& id) {
   RobotTruth truth{id, read_tum(read_text(file))};
   truth.has_orientation = !all_unrotated(truth.poses);

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "radioslam/io/mission/team_names.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/mission/truth.hpp"
 
@@ -19,6 +21,15 @@ inline constexpr const char* kOdometrySources =
 /// lidar/, which are read on demand; a robot with scans needs no odometry.tum. Never reads the ground truth.
 /// All errors are InputErrors; those that concern several files name mission.yaml.
 Mission read_mission(const std::filesystem::path& folder);
+
+/// A mission without its recordings.
+struct MissionNames {
+  Mission mission;
+  std::vector<Antennas> antennas;  ///< by robot
+};
+
+/// Reads mission.yaml and radio/anchors.csv alone: what robots that are about to measure must know.
+MissionNames read_mission_names(const std::filesystem::path& folder);
 
 /// Reads robots/<id>/groundtruth.tum of the mission's robots; a robot without one has no poses. If all
 /// orientations of a robot are the identity, only its positions are used. Also reads the labels of

@@ -33,6 +33,10 @@ class RosScans {
   /// Refuses (InputError) a topic none of whose messages can be read.
   void finish();
 
+  /// Whether scans are passed on as they come.
+  bool has_begun() const { return has_begun_; }
+  std::size_t unreadable() const { return unreadable_.count(); }
+
   /// Notes for the user on the points' times, slices and unreadable messages, one line each.
   std::vector<std::string> notes() const;
 
