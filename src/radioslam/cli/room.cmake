@@ -80,12 +80,16 @@ set_target_properties(radioslam_reproduce PROPERTIES
 # `radioslam agent` starts it. Apart, so that only programs that join a domain load Cyclone's library.
 add_library(radioslam_agent_process STATIC
   cli/agent/agent_process.cpp
+  cli/agent/agent_publisher.cpp
   cli/agent/command_agent.cpp
   cli/agent/inbox.cpp
   cli/agent/outbox.cpp
-  cli/agent/paced_front_end.cpp
+  cli/agent/front_end_thread.cpp
+  cli/agent/recorded_source.cpp
+  cli/agent/ros_options.cpp
+  cli/agent/ros_source.cpp
   cli/agent/worker.cpp)
-target_link_libraries(radioslam_agent_process PUBLIC radioslam_cli radioslam_io_dds radioslam_team radioslam_pipeline PRIVATE radioslam_warnings)
+target_link_libraries(radioslam_agent_process PUBLIC radioslam_cli radioslam_ros_node radioslam_team radioslam_pipeline PRIVATE radioslam_warnings)
 add_executable(radioslam_agent cli/agent/main.cpp)
 target_link_libraries(radioslam_agent PRIVATE radioslam_agent_process radioslam_warnings)
 set_target_properties(radioslam_agent PROPERTIES

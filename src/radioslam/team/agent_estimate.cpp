@@ -201,6 +201,21 @@ class AgentEstimateOf : public AgentEstimate {
     if (!known_.last()) return {};
     return radioslam::largest_frame(known_.last()->team, frames_);
   }
+  std::vector<JudgedClosure> closures() const override {
+    std::vector<JudgedClosure> found;
+    if (!known_.last()) return found;
+    const TeamEstimate<Pose>& team = known_.last()->team;
+    const auto add = [&](const std::vector<Closure>& closures, const std::vector<ClosureJudgement>& judged) {
+      if (closures.size() != judged.size()) return;
+      for (const ClosureResult& of : collect_closures(team.joint, closures, judged))
+        found.push_back({team.joint.robots[of.robot_i.index()].id, team.joint.robots[of.robot_j.index()].id,
+                         of.stamp_i, of.stamp_j, of.status == ClosureStatus::kAccepted});
+    };
+    add(team.measured.closures.scans, team.judgement.closures.scans);
+    add(team.measured.closures.loops, team.judgement.closures.loops);
+    add(team.measured.closures.sequences, team.judgement.closures.sequences);
+    return found;
+  }
   std::size_t records() const override { return known_.known().records; }
 
  private:

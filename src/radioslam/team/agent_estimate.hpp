@@ -40,6 +40,13 @@ struct ScanJob {
   std::function<ScanResult()> run;
 };
 
+/// A closure of the last estimate, at keyframes of two robots, or of one.
+struct JudgedClosure {
+  std::string i, j;
+  Stamp stamp_i, stamp_j;
+  bool is_accepted = false;
+};
+
 class AgentEstimate {
  public:
   static constexpr double kCut_s = 3;
@@ -70,6 +77,8 @@ class AgentEstimate {
   virtual const std::map<std::string, LoggedKeyframes>& keyframes() const = 0;
   /// The robots of the frame with the most, as the last estimate places them.
   virtual std::vector<EstimatedTrajectory> largest_frame() const = 0;
+  /// By scans, and those that were recorded.
+  virtual std::vector<JudgedClosure> closures() const = 0;
   virtual std::size_t records() const = 0;
 };
 

@@ -40,6 +40,12 @@ class AgentScans {
   /// The new closures, encoded. `own`: the robot's keyframes as its log says them.
   std::vector<std::string> done(const ScanResult& result, const LoggedKeyframes& own);
   std::size_t clouds() const { return clouds_; }
+  /// This robot's, or those of another robot that it has.
+  const ScansSoFar* scans_of(const std::string& robot) const {
+    if (robot == self_) return &own_;
+    const auto other = others_.find(robot);
+    return other == others_.end() ? nullptr : &other->second;
+  }
   /// Whether work is done, or will be.
   bool is_busy() const { return is_working_ || news_ > 0 || has_left_out_; }
 

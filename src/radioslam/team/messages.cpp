@@ -182,7 +182,7 @@ std::variant<ReceivedMessage, std::string> decode_message(std::string_view bytes
   WireReader in(bytes);
   const std::string_view magic = in.take(kMagic.size());
   if (!in.good() || magic.substr(0, 3) != kMagic.substr(0, 3)) return "bytes that are no message";
-  if (magic != kMagic) return "messages of another version";
+  if (magic != kMagic) return "messages of another version of this program; a team needs one";
   const std::uint8_t kind = in.byte();
   std::string sender = name_of(in);
   if (!in.good()) return "messages without a sender";

@@ -11,17 +11,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr double kTick_s = 0.1, kCommit_s = 1, kObserve_s = 5, kLook_s = 1;
+constexpr double kTick_s = 0.1, kCommit_s = 1, kObserve_s = 5;
+constexpr milliseconds kLook{250};
 constexpr milliseconds kLeastTick{5}, kLeastCommit{100};          // of a mission that is replayed quickly
 constexpr std::chrono::seconds kLeastQuiet{3}, kLeastSettle{30};  // the same
 constexpr milliseconds kLastWords{1000};                          // to send what is left
-
-/// What the robot has said before; nothing if its program was never started.
-std::optional<KnownLog> log_before(const AgentMemory& memory, const std::string& robot) {
-  for (const auto& [name, log] : memory.logs)
-    if (name == robot && log.life == memory.life && !log.records.empty()) return log;
-  return std::nullopt;
-}
 
 SteadyClock::duration at_least(double mission_s, double rate, milliseconds least) {
   return std::max<SteadyClock::duration>(least, std::chrono::duration_cast<SteadyClock::duration>(
@@ -30,17 +24,25 @@ SteadyClock::duration at_least(double mission_s, double rate, milliseconds least
 
 }  // namespace
 
-AgentProcess::AgentProcess(const AgentProcessSetup& setup, AgentStore& store, const MissionClock& clock)
+std::optional<KnownLog> log_before(const AgentMemory& memory, const std::string& robot) {
+  for (const auto& [name, log] : memory.logs)
+    if (name == robot && log.life == memory.life && !log.records.empty()) return log;
+  return std::nullopt;
+}
+
+AgentProcess::AgentProcess(const AgentProcessSetup& setup, AgentStore& store, const MissionClock& clock,
+                           DdsDomain& domain, SampleSource& source)
     : setup_(setup),
       store_(store),
       clock_(clock),
-      name_(setup.mission.robots[setup.self.index()].id),
+      name_(setup.robot),
       before_(log_before(store.memory(), name_)),
-      agent_(name_, setup.mission.dimension, setup.run, setup.agent, store.memory()),
-      domain_(setup.dds),
+      agent_(name_, setup.dimension, setup.run, setup.agent, store.memory()),
+      domain_(domain),
       channel_(domain_, name_, [this](TeamMessage message) { inbox_.hear(std::move(message)); }),
       outbox_(name_, channel_),
-      front_end_(setup.mission, setup.self, setup.run, before_, clock, inbox_),
+      front_end_(source, setup.run, before_, clock, inbox_,
+                 setup.publisher ? FrontEndThread::Poses::kReported : FrontEndThread::Poses::kKept),
       worker_(inbox_),
       changed_at_(SteadyClock::now()) {}
 
@@ -85,6 +87,7 @@ void AgentProcess::take(Arrival arrival, Stamp now) {
     return agent_.done(*result, now);
   }
   if (const auto* result = std::get_if<ScanResult>(&arrival)) return agent_.done(*result);
+  if (const auto* map = std::get_if<PublishedMap>(&arrival)) return setup_.publisher->add(*map);
   std::rethrow_exception(std::get<std::exception_ptr>(arrival));
 }
 
@@ -98,9 +101,10 @@ void AgentProcess::take(FrontEndNews news, Stamp now) {
   for (std::string& record : news.records) agent_.say(std::move(record));
   for (auto& [stamp, cloud] : news.clouds) agent_.add_cloud(stamp, std::move(cloud));
   for (FrontEndEvent& event : news.events) say({event.stamp, std::move(event.what)});
+  for (const BodyPose& pose : news.poses) setup_.publisher->add(pose, agent_.frame_of(name_));
   if (news.is_over) {
     is_recording_over_ = true;
-    say({now, "has no more samples"});
+    if (setup_.end) say({now, "has no more samples"});
   }
 }
 
@@ -114,7 +118,10 @@ void AgentProcess::step(Stamp now) {
   for (TeamEvent& event : step.events) say(std::move(event));
   if (step.job) worker_.start([job = *std::move(step.job)] { return Arrival(job.run()); });
   if (step.scan_job) worker_.start([job = *std::move(step.scan_job)] { return Arrival(job.run()); });
-  if (!looked_ || seconds_between(*looked_, now) >= kLook_s * clock_.rate()) look_around(now);
+  if (setup_.publisher)
+    if (auto job = setup_.publisher->step(agent_, now))
+      worker_.start([job = *std::move(job)] { return Arrival(job()); });
+  if (!looked_ || SteadyClock::now() - *looked_ >= kLook) look_around(now);
   observe(now);
 }
 
@@ -141,10 +148,14 @@ void AgentProcess::say_once(bool is_so, const std::string& what, Stamp now) {
 
 /// For what would else go wrong in silence.
 void AgentProcess::look_around(Stamp now) {
-  looked_ = now;
+  looked_ = SteadyClock::now();
   for (std::string& note : domain_.take_notes()) say({now, std::move(note)});
+  if (setup_.subscriptions) {
+    setup_.subscriptions->look(host_time());
+    for (std::string& note : setup_.subscriptions->take_notes()) say({now, std::move(note)});
+  }
   say_once(channel_.of_namesakes() > 0, "hears another robot of its own name", now);
-  say_once(channel_.not_understood() > 0, "hears messages on the team's topics that are none", now);
+  say_once(channel_.not_understood() > 0, "hears messages on the team's topics that are none; does another program use /radioslam/digest or /radioslam/team?", now);
   for (const auto& [robot, count] : inbox_.left_out())
     say_once(true, "leaves out messages of robot " + robot + ", which come faster than they are read", now);
 }
@@ -177,11 +188,10 @@ void AgentProcess::note_changes() {
   const bool differs = std::any_of(peers.begin(), peers.end(), [&](const auto& peer) {
     return peer.second.is_heard(now) && peer.second.knows != agent_.logs().extents();
   });
-  const auto& robots = setup_.mission.robots;
-  const bool is_missing = std::any_of(robots.begin(), robots.end(), [&](const Robot& robot) {
-    return robot.id != name_ && !peers.contains(robot.id);
+  const bool is_missing = std::any_of(setup_.team.begin(), setup_.team.end(), [&](const auto& robot) {
+    return robot != name_ && !peers.contains(robot);
   });
-  if (is_recording_over_ && !over_ && now >= end_of(setup_.mission)) over_ = SteadyClock::now();
+  if (is_recording_over_ && !over_ && setup_.end && now >= *setup_.end) over_ = SteadyClock::now();
   if (known == known_ && !differs && !is_missing && !agent_.is_busy() && over_) return;
   known_ = known;
   changed_ = now;

@@ -1,9 +1,10 @@
 // A robot's agent as a program of its own: the agent in the thread that calls, its front end, a worker for
 // its jobs, and DDS in threads of theirs, which only put into an inbox.
 //
-// It ends when the mission is over and, for kQuiet_s of the mission, it has learned nothing and all that it
-// hears knew the same, at the latest kSettle_s after; robots of the mission that were never heard are waited
-// for that long. A machine that is busy gets some seconds of its own in either case.
+// Of a recorded mission it ends when that is over and, for kQuiet_s of the mission, it has learned nothing
+// and all that it hears knew the same, at the latest kSettle_s after; robots of the mission that were never
+// heard are waited for that long. A machine that is busy gets some seconds of its own in either case. A robot
+// that measures ends when it is asked to.
 #pragma once
 
 #include <functional>
@@ -12,31 +13,39 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/cli/agent/agent_publisher.hpp"
+#include "radioslam/cli/agent/front_end_thread.hpp"
 #include "radioslam/cli/agent/outbox.hpp"
-#include "radioslam/cli/agent/paced_front_end.hpp"
 #include "radioslam/cli/agent/worker.hpp"
-#include "radioslam/io/dds/dds_config.hpp"
+#include "radioslam/ros_node/ros_subscriptions.hpp"
 #include "radioslam/team/virtual_team.hpp"
 
 namespace radioslam::cli {
 
 struct AgentProcessSetup {
-  const Mission& mission;
-  RobotIndex self;
+  std::string robot;
+  int dimension = 2;
   const RunParams& run;
-  DdsConfig dds;
+  std::optional<Stamp> end = {};       ///< of the recorded mission
+  std::vector<std::string> team = {};  ///< robots that are waited for in the end
   AgentParams agent = {};
   std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of = {};
   std::function<void(const std::string& robot, const TeamEvent&)> say = {};  ///< what the user should know
-  std::function<bool()> is_to_conclude = {};  ///< with what is known; the recording ends there
+  std::function<bool()> is_to_conclude = {};  ///< with what is known; no more samples come then
+  RosSubscriptions* subscriptions = nullptr;  ///< of a robot that measures
+  AgentPublisher* publisher = nullptr;        ///< of one that shows what it knows
 };
+
+/// What the robot has said before; nothing if its program was never started.
+std::optional<KnownLog> log_before(const AgentMemory& memory, const std::string& robot);
 
 class AgentProcess {
  public:
   static constexpr double kQuiet_s = 15, kSettle_s = 180;
 
-  /// Keeps references.
-  AgentProcess(const AgentProcessSetup& setup, AgentStore& store, const MissionClock& clock);
+  /// Keeps references. The domain is used by the thread that calls live() alone.
+  AgentProcess(const AgentProcessSetup& setup, AgentStore& store, const MissionClock& clock,
+               DdsDomain& domain, SampleSource& source);
   ~AgentProcess();
 
   /// What this one agent knows in the end, and how it came to be known.
@@ -63,15 +72,15 @@ class AgentProcess {
   std::optional<KnownLog> before_;
   Agent agent_;
   Inbox inbox_;
-  DdsDomain domain_;
+  DdsDomain& domain_;
   TeamChannel channel_;
   Outbox outbox_;
-  PacedFrontEnd front_end_;
+  FrontEndThread front_end_;
   Worker worker_;
   TeamRun run_;
   std::set<std::string> said_;
-  std::optional<Stamp> committed_, observed_, looked_;
-  std::optional<SteadyClock::time_point> committed_at_,
+  std::optional<Stamp> committed_, observed_;
+  std::optional<SteadyClock::time_point> committed_at_, looked_,
       over_;  ///< the latter: the recording, and the mission
   Stamp changed_;
   SteadyClock::time_point changed_at_;

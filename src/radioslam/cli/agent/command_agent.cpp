@@ -11,6 +11,9 @@
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/cli/agent/agent_process.hpp"
+#include "radioslam/cli/agent/recorded_source.hpp"
+#include "radioslam/cli/agent/ros_options.hpp"
+#include "radioslam/cli/agent/ros_source.hpp"
 #include "radioslam/cli/commands/command_options.hpp"
 #include "radioslam/cli/commands/mission_input.hpp"
 #include "radioslam/cli/commands/output_path_check.hpp"
@@ -31,6 +34,7 @@ struct AgentArguments {
   std::vector<std::string> peers;
   DdsConfig dds;
   double rate = 1, cap = 1e6;
+  RosOptions ros;
   ParameterOptions parameters;
 };
 
@@ -70,38 +74,96 @@ DdsConfig dds_config(const AgentArguments& arguments) {
   return config;
 }
 
-void run_agent(const AgentArguments& arguments) {
-  const auto params = with_settings(
-      RunParams{}, collect_settings(arguments.parameters.config_path, arguments.parameters.set));
-  refuse_replacing_inputs(arguments.output, {arguments.log, arguments.journal});
-  OutputFolder output(arguments.output, kRunFolder);
+/// What it is the same for, wherever its samples come from.
+struct Life {
+  const AgentArguments& arguments;
+  const RunParams& params;
+  OutputFolder& output;
+  DdsDomain& domain;
+  AgentStore& store;
+};
+
+void live(const Life& life, AgentProcessSetup setup, const MissionInput& given, const MissionClock& clock,
+          SampleSource& source, const RobotTopics& topics) {
+  RosPublisher publisher;
+  AgentPublisher published(setup.robot, topics.space, topics.transforms, life.params, publisher);
+  std::optional<DdsSink> sink;
+  if (life.arguments.ros.publishes || life.arguments.ros.is_on) {
+    publisher.add(sink.emplace(life.domain, published.topics()));
+    setup.publisher = &published;
+  }
+  setup.agent.bytes_s = life.arguments.cap;
+  setup.say = [&](const std::string& robot, const TeamEvent& event) {
+    std::cout << std::fixed << std::setprecision(1) << seconds_between(clock.begin(), event.at)
+              << " s: robot " << robot << ' ' << event.what << std::endl;
+  };
+  setup.is_to_conclude = is_to_conclude;
+  const TeamRun run = AgentProcess(setup, life.store, clock, life.domain, source).live();
+  write_agent(run, life.arguments.robot, life.params, given, life.output.path(), clock.begin());
+  write_tables(life.output.path(), run, clock.begin());
+  life.output.commit();
+}
+
+void live_through_recording(const Life& life) {
+  const AgentArguments& arguments = life.arguments;
   MissionInput input = read_input({arguments.log});
   if (!input.is_recorded())
     throw InputError(arguments.log, 0, "an agent lives through a recorded mission, which this is not");
   const MissionInput given = for_evaluation(input);
   const Mission& mission = input.mission;
   const RobotIndex self = robot_named(arguments.robot, mission, "--robot");
+  const MissionClock clock(begin_of(mission), start_of(arguments, life.store), arguments.rate);
+  AgentProcessSetup setup{
+      .robot = arguments.robot, .dimension = mission.dimension, .run = life.params, .end = end_of(mission)};
+  for (const Robot& robot : mission.robots) setup.team.push_back(robot.id);
+  setup.error_of = [&](const std::vector<EstimatedTrajectory>& team) {
+    return team_error_m(team, given.truth, mission.dimension);
+  };
+  RecordedSource source(mission, self, log_before(life.store.memory(), arguments.robot).has_value(), clock);
+  live(life, std::move(setup), given, clock, source, topics_of(arguments.robot, arguments.ros));
+}
+
+void live_on_ros(const Life& life) {
+  const AgentArguments& arguments = life.arguments;
+  RobotSamplesSetup samples = robot_samples_setup(arguments.robot, arguments.ros);
+  const RobotTopics topics = samples.topics;
+  MissionInput given;
+  given.mission = samples.names;
+  AgentProcessSetup setup{.robot = arguments.robot, .dimension = samples.names.dimension, .run = life.params};
+  setup.error_of = [](const std::vector<EstimatedTrajectory>&) { return std::nullopt; };
+  std::unique_ptr<RosClock> simulated;
+  if (arguments.ros.uses_simulated_time) simulated = started_clock(life.domain, topics.clock);
+  const std::function<Stamp()> time =
+      simulated ? [&simulated] { return simulated->now(); } : std::function<Stamp()>(host_time);
+  const MissionClock clock(time);
+  RosSource source(std::move(samples));
+  RosSubscriptions subscriptions(life.domain, topics, time,
+                                 [&source](RosArrival arrival) { source.add(std::move(arrival)); });
+  setup.subscriptions = &subscriptions;
+  live(life, std::move(setup), given, clock, source, topics);
+}
+
+void run_agent(const AgentArguments& arguments) {
+  if (arguments.ros.is_on != arguments.log.empty())
+    throw InputError("agent", 0, "a robot's samples come from --log MISSION or from --ros2, one of the two");
+  const auto params = with_settings(
+      RunParams{}, collect_settings(arguments.parameters.config_path, arguments.parameters.set));
+  std::vector<std::string> inputs{arguments.log, arguments.journal};
+  if (!arguments.ros.mission.empty()) inputs.push_back(arguments.ros.mission);
+  refuse_replacing_inputs(arguments.output, inputs);
+  OutputFolder output(arguments.output, kRunFolder);
   std::unique_ptr<AgentStore> store;
   if (arguments.journal.empty())
     store = store_in_memory(arguments.robot, new_life());
   else
     store = std::make_unique<JournalStore>(arguments.journal, arguments.robot, new_life());
-  const MissionClock clock(begin_of(mission), start_of(arguments, *store), arguments.rate);
-  AgentProcessSetup setup{.mission = mission, .self = self, .run = params, .dds = dds_config(arguments)};
-  setup.agent.bytes_s = arguments.cap;
-  setup.error_of = [&](const std::vector<EstimatedTrajectory>& team) {
-    return team_error_m(team, given.truth, mission.dimension);
-  };
-  setup.say = [&](const std::string& robot, const TeamEvent& event) {
-    std::cout << std::fixed << std::setprecision(1) << seconds_between(clock.begin(), event.at)
-              << " s: robot " << robot << ' ' << event.what << std::endl;
-  };
-  setup.is_to_conclude = is_to_conclude;
+  DdsDomain domain(dds_config(arguments));
   conclude_on_signal();
-  const TeamRun run = AgentProcess(setup, *store, clock).live();
-  write_agent(run, arguments.robot, params, given, output.path(), clock.begin());
-  write_tables(output.path(), run, clock.begin());
-  output.commit();
+  const Life life{arguments, params, output, domain, *store};
+  if (arguments.ros.is_on)
+    live_on_ros(life);
+  else
+    live_through_recording(life);
 }
 
 }  // namespace
@@ -112,8 +174,8 @@ void add_agent_options(CLI::App& program) {
       program.add_subcommand("agent", "Run one robot of a team, which talks to the others by DDS");
   command->add_option("--robot", options->robot, "Which robot it is")->required()->type_name("ID");
   command->add_option("--log", options->log, "Mission whose recordings of the robot are replayed")
-      ->required()
       ->type_name("MISSION");
+  add_ros_options(*command, options->ros);
   command->add_option("--rate", options->rate, "How many times faster than it was recorded")
       ->check(number_from(0.01, 1000))
       ->capture_default_str();

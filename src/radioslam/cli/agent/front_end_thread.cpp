@@ -1,4 +1,4 @@
-#include "radioslam/cli/agent/paced_front_end.hpp"
+#include "radioslam/cli/agent/front_end_thread.hpp"
 
 #include <utility>
 
@@ -6,17 +6,21 @@
 
 namespace radioslam::cli {
 
-PacedFrontEnd::PacedFrontEnd(const Mission& mission, RobotIndex self, const RunParams& params,
-                             const std::optional<KnownLog>& before, const MissionClock& clock, Inbox& inbox)
-    : mission_(mission),
-      self_(self),
+FrontEndThread::FrontEndThread(SampleSource& source, const RunParams& params,
+                               const std::optional<KnownLog>& before, const MissionClock& clock, Inbox& inbox,
+                               Poses poses)
+    : source_(source),
       params_(params),
+      before_(before),
       clock_(clock),
       inbox_(inbox),
-      clouds_(params.scans.clouds),
-      front_end_(mission, self, sources_of(mission.robots[self.index()]), params.scans, params.keyframe,
-                 clouds_) {
-  if (before) resumed_.emplace(*before, !front_end_.follows_scans());
+      poses_(poses),
+      clouds_(params.scans.clouds) {
+  source_.set_say([this](std::string note) {
+    FrontEndNews news;
+    news.events.push_back({clock_.now(), std::move(note)});
+    inbox_.push(std::move(news));
+  });
   thread_ = std::thread([this] {
     try {
       run();
@@ -26,32 +30,29 @@ PacedFrontEnd::PacedFrontEnd(const Mission& mission, RobotIndex self, const RunP
   });
 }
 
-PacedFrontEnd::~PacedFrontEnd() {
+FrontEndThread::~FrontEndThread() {
   conclude();
   thread_.join();
 }
 
-void PacedFrontEnd::conclude() {
-  const std::lock_guard lock(mutex_);
-  is_concluded_ = true;
-  concluded_.notify_all();
-}
-
-/// False if the recording ends before.
-bool PacedFrontEnd::wait_until(Stamp stamp) {
-  std::unique_lock lock(mutex_);
-  return !concluded_.wait_until(lock, clock_.when(stamp), [this] { return is_concluded_; });
-}
-
-void PacedFrontEnd::run() {
-  RecordedSamples samples(mission_, self_);
-  if (resumed_) samples.skip_before(clock_.now());
-  while (const auto stamp = samples.next()) {
-    if (!wait_until(*stamp)) break;
-    front_end_.add(samples.take());
-    report();
+void FrontEndThread::run() {
+  if (const auto sources = source_.begin()) {
+    front_end_ = std::make_unique<FrontEnd>(source_.names(), source_.self(), *sources, params_.scans,
+                                            params_.keyframe, clouds_);
+    if (before_) resumed_.emplace(*before_, source_.odometry_goes_on() && !front_end_->follows_scans());
+    while (auto sample = source_.next()) {
+      front_end_->add(*std::move(sample));
+      report();
+    }
+    finish();
   }
-  const auto tracked = front_end_.finish();
+  FrontEndNews last;
+  last.is_over = true;
+  inbox_.push(std::move(last));
+}
+
+void FrontEndThread::finish() {
+  const auto tracked = front_end_->finish();
   is_finished_ = true;
   FrontEndNews last;
   if (tracked) {
@@ -59,14 +60,14 @@ void PacedFrontEnd::run() {
     if (tracked->traits)
       last.scanner = {tracked->traits->kind, tracked->track.nominal_inlier_ratio, tracked->traits->spacing_m};
     report();
-    amend_with_hindsight(front_end_, *tracked, mission_.robots[self_.index()], params_.scans.stage);
+    amend_with_hindsight(*front_end_, *tracked, source_.names().robots[source_.self().index()],
+                         params_.scans.stage);
   }
-  last.is_over = true;
   report(std::move(last));
 }
 
 /// Those of the first `until` keyframes that were not reported.
-void PacedFrontEnd::add_clouds(const ScanTrajectory& track, std::size_t until, FrontEndNews& news) {
+void FrontEndThread::add_clouds(const ScanTrajectory& track, std::size_t until, FrontEndNews& news) {
   std::size_t first = until;
   while (first > 0 && (!reported_cloud_ || track.poses[track.keyframes[first - 1]].stamp > *reported_cloud_))
     --first;
@@ -76,16 +77,17 @@ void PacedFrontEnd::add_clouds(const ScanTrajectory& track, std::size_t until, F
   }
 }
 
-void PacedFrontEnd::report(FrontEndNews news) {
-  for (std::string& record : front_end_.take_records()) {
+void FrontEndThread::report(FrontEndNews news) {
+  for (std::string& record : front_end_->take_records()) {
     if (!resumed_)
       news.records.push_back(std::move(record));
     else if (auto continued = resumed_->continued(record))
       news.records.push_back(*std::move(continued));
   }
-  front_end_.take_poses();
-  const ScanTrajectory* track = is_finished_ ? nullptr : front_end_.scans().track();
-  const auto& traits = front_end_.scans().traits();
+  for (const OnlinePose& pose : front_end_->take_poses())
+    if (poses_ == Poses::kReported) news.poses.push_back(source_.published(pose));
+  const ScanTrajectory* track = is_finished_ ? nullptr : front_end_->scans().track();
+  const auto& traits = front_end_->scans().traits();
   // The scan of the newest pose may be another one yet: one that starts a map is deskewed again.
   if (track && traits && track->poses.size() > 1) {
     const bool is_newest = track->keyframes.back() + 1 == track->poses.size();
@@ -95,7 +97,7 @@ void PacedFrontEnd::report(FrontEndNews news) {
                       track->nominal_inlier_ratio / static_cast<double>(track->poses.size() - 1),
                       traits->spacing_m};
   }
-  auto events = front_end_.events();
+  auto events = front_end_->events();
   for (; reported_events_ < events.size(); ++reported_events_)
     news.events.push_back(std::move(events[reported_events_]));
   if (!news.empty()) inbox_.push(std::move(news));

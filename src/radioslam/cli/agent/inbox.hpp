@@ -18,9 +18,18 @@
 
 #include "radioslam/cli/agent/mission_clock.hpp"
 #include "radioslam/io/dds/team_channel.hpp"
+#include "radioslam/io/ros/ros_output.hpp"
 #include "radioslam/team/agent.hpp"
 
 namespace radioslam::cli {
+
+/// A pose of the robot in the frame of its odometry, to be published.
+struct BodyPose {
+  Stamp stamp;
+  SE3 T_start_body;
+  std::string body_frame, odometry_frame;   ///< the latter: of the recorded odometry; empty without
+  std::optional<SE3> T_odometry_body = {};  ///< as recorded
+};
 
 /// What the front end has said since the last time.
 struct FrontEndNews {
@@ -28,13 +37,20 @@ struct FrontEndNews {
   std::vector<std::pair<Stamp, StoredCloud>> clouds = {};
   std::optional<ScannerFacts> scanner = {};
   std::vector<FrontEndEvent> events = {};
+  std::vector<BodyPose> poses = {};
   bool is_over = false;  ///< no more comes
 
-  bool empty() const { return records.empty() && clouds.empty() && events.empty() && !is_over; }
+  bool empty() const {
+    return records.empty() && clouds.empty() && events.empty() && poses.empty() && !is_over;
+  }
 };
 
+/// Messages that a worker has made.
+using PublishedMap = std::vector<RosPublication>;
+
 /// The last: why a thread ended.
-using Arrival = std::variant<TeamMessage, FrontEndNews, AnyGrownEstimate, ScanResult, std::exception_ptr>;
+using Arrival =
+    std::variant<TeamMessage, FrontEndNews, AnyGrownEstimate, ScanResult, PublishedMap, std::exception_ptr>;
 
 class Inbox {
  public:
