@@ -53,6 +53,7 @@ void play(const std::filesystem::path& recording, const std::map<std::string, st
          std::this_thread::sleep_until(
              start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                          std::chrono::duration<double>(seconds_between(*begin, message.stamp) / rate)));
+         const Stamp now = time_of_stamps(message, index);
          CdrWriter time;
          time.i32(static_cast<std::int32_t>(now.ns / 1'000'000'000));
          time.u32(static_cast<std::uint32_t>(now.ns % 1'000'000'000));

@@ -1,6 +1,7 @@
 // radioslam agent: one robot of a team as a program of its own.
 #include "radioslam/cli/agent/command_agent.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -67,10 +68,14 @@ Stamp start_of(const AgentArguments& arguments, AgentStore& store) {
   return start;
 }
 
+/// The drivers of a robot are participants of its host, many, and found by multicast, as nodes of ROS 2 are.
 DdsConfig dds_config(const AgentArguments& arguments) {
+  constexpr std::uint32_t kNodesPerHost = 100;
   DdsConfig config = arguments.dds;
-  config.discovery = arguments.peers.empty() ? DdsDiscovery::kMulticast : DdsDiscovery::kPeers;
+  const bool has_drivers = arguments.ros.is_on && !config.interface.starts_with("127.");
+  config.discovery = arguments.peers.empty() || has_drivers ? DdsDiscovery::kMulticast : DdsDiscovery::kPeers;
   config.peers = arguments.peers;
+  if (has_drivers) config.robots_per_host = std::max(config.robots_per_host, kNodesPerHost);
   return config;
 }
 
