@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "ros_node/arrivals.hpp"
 #include "radioslam/base/random.hpp"
 #include "radioslam/ros_node/robot_topics.hpp"
+#include "ros_node/arrivals.hpp"
 
 namespace radioslam {
 namespace {

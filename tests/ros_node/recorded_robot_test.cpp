@@ -8,12 +8,12 @@
 
 #include "io/dds/dds_test_domain.hpp"
 #include "io/recorded_data.hpp"
-#include "ros_node/arrivals.hpp"
 #include "radioslam/io/dds/dds_names.hpp"
 #include "radioslam/io/ros/ros_import.hpp"
 #include "radioslam/io/ros/ros_ranges.hpp"
 #include "radioslam/ros_node/ros_clock.hpp"
 #include "radioslam/ros_node/ros_subscriptions.hpp"
+#include "ros_node/arrivals.hpp"
 
 namespace radioslam {
 namespace {
@@ -91,7 +91,7 @@ void expect_as_imported(const std::filesystem::path& recording, const RosTopicRe
                                      [&](const RobotTopic& of) { return of.name == message.channel.topic; });
                      if (is_read)
                        robot.hear(message.channel.topic, message.channel.type, std::string(message.bytes),
-                                  message.stamp);
+                                  time_of_stamps(message, index));
                    }});
   const Robot& expected = imported.imported.mission.robots.front();
   expect_odometry(robot.all<StampedPose<SE3>>(), expected.odometry);
@@ -137,7 +137,7 @@ TEST(RecordedRobot, ItsRangesAreAsImported) {
                    [&](const RosMessage& message) {
                      if (message.channel.topic == topic || message.channel.topic == "/turtle02/odom")
                        robot.hear(message.channel.topic, message.channel.type, std::string(message.bytes),
-                                  message.stamp);
+                                  time_of_stamps(message, index));
                    }});
   const auto ranges = robot.all<RangeMeasurement>();
   ASSERT_EQ(ranges.size(), imported.ranges.size());

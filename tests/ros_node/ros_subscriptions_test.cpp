@@ -6,10 +6,10 @@
 #include <mutex>
 
 #include "io/dds/dds_test_domain.hpp"
-#include "ros_node/arrivals.hpp"
 #include "radioslam/io/dds/dds_names.hpp"
 #include "radioslam/ros_node/ros_clock.hpp"
 #include "radioslam/ros_node/ros_publisher.hpp"
+#include "ros_node/arrivals.hpp"
 
 namespace radioslam {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "io/dds/dds_test_domain.hpp"
 #include "io/dds/fast_dds_peer.hpp"
-#include "ros_node/arrivals.hpp"
 #include "radioslam/io/dds/dds_names.hpp"
 #include "radioslam/ros_node/ros_publisher.hpp"
 #include "radioslam/ros_node/ros_subscriptions.hpp"
+#include "ros_node/arrivals.hpp"
 
 namespace radioslam {
 namespace {

@@ -65,7 +65,8 @@ TEST(AgentMessages, TruncatedOrWithMoreBytesAreRefused) {
 TEST(AgentMessages, OtherVersionsAndTooManyBytesAreNamed) {
   std::string bytes = one_of_each()[0];
   bytes[3] = '2';
-  EXPECT_EQ(std::get<std::string>(decode_message(bytes)), "messages of another version of this program; a team needs one");
+  EXPECT_EQ(std::get<std::string>(decode_message(bytes)),
+            "messages of another version of this program; a team needs one");
   EXPECT_EQ(std::get<std::string>(decode_message("hello")), "bytes that are no message");
   EXPECT_NE(std::get<std::string>(decode_message(std::string(kMaxAgentMessageBytes + 1, 'x'))).find("60,000"),
             std::string::npos);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "radioslam/io/mission/team_names.hpp"
-#include "radioslam/ros_node/notes_once.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/ros_node/notes_once.hpp"
 
 namespace radioslam {
 

@@ -155,7 +155,10 @@ void AgentProcess::look_around(Stamp now) {
     for (std::string& note : setup_.subscriptions->take_notes()) say({now, std::move(note)});
   }
   say_once(channel_.of_namesakes() > 0, "hears another robot of its own name", now);
-  say_once(channel_.not_understood() > 0, "hears messages on the team's topics that are none; does another program use /radioslam/digest or /radioslam/team?", now);
+  say_once(channel_.not_understood() > 0,
+           "hears messages on the team's topics that are none; does another program use /radioslam/digest or "
+           "/radioslam/team?",
+           now);
   for (const auto& [robot, count] : inbox_.left_out())
     say_once(true, "leaves out messages of robot " + robot + ", which come faster than they are read", now);
 }

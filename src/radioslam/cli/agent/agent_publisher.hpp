@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "radioslam/cli/agent/inbox.hpp"
-#include "radioslam/ros_node/ros_publisher.hpp"
 #include "radioslam/pipeline/params.hpp"
+#include "radioslam/ros_node/ros_publisher.hpp"
 
 namespace radioslam::cli {
 
