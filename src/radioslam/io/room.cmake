@@ -51,6 +51,7 @@ radioslam_room(io
     rendezvous/robot_message_json.cpp
     rendezvous/robot_session.cpp
     ros/mcap.cpp
+    ros/mcap_writer.cpp
     ros/transforms.cpp
     ros/ros1_bag.cpp
     ros/ros_collector.cpp

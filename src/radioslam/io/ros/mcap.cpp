@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "radioslam/base/units.hpp"
+#include "radioslam/io/ros/mcap_format.hpp"
 #include "radioslam/io/text/byte_cursor.hpp"
 #include "radioslam/io/text/compressed_text.hpp"
 #include "radioslam/io/text/skipped_records.hpp"
@@ -16,19 +17,8 @@
 namespace radioslam {
 namespace {
 
-enum McapOpcode : std::uint8_t {
-  kMcapSchema = 0x03,
-  kMcapChannel = 0x04,
-  kMcapMessage = 0x05,
-  kMcapChunk = 0x06,
-  kMcapDataEnd = 0x0f,
-};
 constexpr std::size_t kMcapRecordHeader = 9;
 constexpr std::uint64_t kMaxTime_ns = std::uint64_t{1} << 62U;
-
-std::uint32_t checksum_of(const std::string& bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 std::string decompress(const ByteCursor& at, const std::string& place, const std::string& compression,
                        std::string_view packed, std::uint64_t size) {
@@ -48,7 +38,7 @@ std::string unpack_chunk(ByteCursor content, const std::string& place) {
   const std::string_view packed = content.take(content.u64());
   std::string unpacked = decompress(content, place, compression, packed, size);
   if (unpacked.size() != size) content.fail("the chunk's length differs from the stated one");
-  if (checksum != 0 && checksum != checksum_of(unpacked))
+  if (checksum != 0 && checksum != mcap_checksum(unpacked))
     content.fail("the chunk is corrupt: wrong checksum");
   return unpacked;
 }
@@ -218,6 +208,11 @@ class McapReader {
 };
 
 }  // namespace
+
+std::uint32_t mcap_checksum(std::string_view bytes, std::uint32_t before) {
+  return static_cast<std::uint32_t>(
+      crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
 
 std::vector<std::string> visit_mcap(const std::string& name, std::string_view bytes,
                                     const RosVisitor& visitor) {

@@ -1,5 +1,4 @@
-// Reads MCAP files (mcap.dev/spec): a magic, records of u8 opcode, u64 length and content (little endian),
-// and the magic again. The file is read sequentially without its index and summary, so that a truncated file
+// Reads MCAP files (mcap_format.hpp) sequentially, without their index and summary, so that a truncated file
 // can be read up to its end.
 #pragma once
 
@@ -10,8 +9,6 @@
 #include "radioslam/io/ros/ros_recording.hpp"
 
 namespace radioslam {
-
-inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 
 /// Passes the messages of channels encoded as cdr or ros1 to the visitor; others are skipped with a warning.
 /// Chunks may be compressed with lz4 or zstd. Inconsistent records, chunks that cannot be decompressed or

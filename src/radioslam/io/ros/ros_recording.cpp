@@ -17,6 +17,7 @@
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/io/ros/mcap.hpp"
+#include "radioslam/io/ros/mcap_format.hpp"
 #include "radioslam/io/ros/ros1_bag.hpp"
 #include "radioslam/io/ros/ros_database.hpp"
 #include "radioslam/io/text/compressed_text.hpp"

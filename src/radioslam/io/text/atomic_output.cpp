@@ -190,6 +190,10 @@ void OutputFile::append(std::string_view part) {
   if (std::fwrite(part.data(), 1, part.size(), file_.get()) != part.size()) fail(errno, temporary_);
 }
 
+void OutputFile::flush() {
+  if (file_ && std::fflush(file_.get()) != 0) fail(errno, temporary_);
+}
+
 void OutputFile::commit(std::string_view content) {
   append(content);
   if (std::fclose(file_.release()) != 0) fail(errno, temporary_);

@@ -58,6 +58,8 @@ class OutputFile : private UnfinishedOutput {
 
   /// Appends a part of the content; for content too large to hold in memory.
   void append(std::string_view part);
+  /// What was appended is in the unfinished file even if the program is killed.
+  void flush();
   /// Appends `content` and moves the file to the target.
   void commit(std::string_view content = {});
 
