@@ -82,14 +82,17 @@ add_library(radioslam_agent_process STATIC
   cli/agent/agent_process.cpp
   cli/agent/agent_publisher.cpp
   cli/agent/command_agent.cpp
+  cli/agent/agent_view.cpp
   cli/agent/inbox.cpp
+  cli/agent/live_page.cpp
+  cli/agent/live_view.cpp
   cli/agent/outbox.cpp
   cli/agent/front_end_thread.cpp
   cli/agent/recorded_source.cpp
   cli/agent/ros_options.cpp
   cli/agent/ros_source.cpp
   cli/agent/worker.cpp)
-target_link_libraries(radioslam_agent_process PUBLIC radioslam_cli radioslam_ros_node radioslam_team radioslam_pipeline PRIVATE radioslam_warnings)
+target_link_libraries(radioslam_agent_process PUBLIC radioslam_cli radioslam_ros_node radioslam_io_live radioslam_report_live radioslam_team radioslam_pipeline PRIVATE radioslam_warnings)
 add_executable(radioslam_agent cli/agent/main.cpp)
 target_link_libraries(radioslam_agent PRIVATE radioslam_agent_process radioslam_warnings)
 set_target_properties(radioslam_agent PROPERTIES

@@ -51,7 +51,6 @@ radioslam_room(io
     rendezvous/robot_message_json.cpp
     rendezvous/robot_session.cpp
     ros/mcap.cpp
-    ros/mcap_writer.cpp
     ros/transforms.cpp
     ros/ros1_bag.cpp
     ros/ros_collector.cpp
@@ -98,6 +97,8 @@ radioslam_room(io
     wifi/wifi_csv.cpp
     wifi/wifi_log.cpp
     wifi/wifi_scan_log.cpp
+    live/live_address.cpp
+    ros/mcap_writer.cpp
   ROOMS graph rendezvous mission map records radio results eval
   LIBRARIES nlohmann_json::nlohmann_json
   PRIVATE_LIBRARIES yaml-cpp Zstd::Zstd BZip2::BZip2 ZLIB::ZLIB Lz4::Lz4 SQLite::SQLite3 Pcap::Pcap)

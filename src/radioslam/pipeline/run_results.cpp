@@ -124,23 +124,6 @@ void check_angles_into(RunResult& result, const Mission& mission, const JointGra
   add(check_estimate(mission, joint, alignment, params.angles, params.angle_check), CheckedPose::kEstimate);
 }
 
-/// Outcomes of all links and closures, by kind.
-template <class Pose>
-std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estimate) {
-  const JointGraph<Pose>& joint = estimate.joint;
-  std::vector<ClosureResult> all = collect_radio_links(joint);
-  for (auto& closure : collect_fingerprint_closures(joint)) all.push_back(std::move(closure));
-  const auto& closures = estimate.measured.closures;
-  const auto& judgements = estimate.judgement.closures;
-  const auto add = [&](const auto& of_origin, const auto& judged) {
-    for (auto& closure : collect_closures(joint, of_origin, judged)) all.push_back(std::move(closure));
-  };
-  add(closures.sequences, judgements.sequences);
-  add(closures.scans, judgements.scans);
-  add(closures.loops, judgements.loops);
-  return all;
-}
-
 /// Adds the keyframe pairs with overlapping views and their counts. `streamed`: they have all been handed
 /// over.
 void add_overlaps(RunResult& result, const Mission& mission, OverlapStage overlaps, bool streamed) {
@@ -202,6 +185,22 @@ void add_uncertain_stretches(RunResult& result) {
 }  // namespace
 
 template <class Pose>
+std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estimate) {
+  const JointGraph<Pose>& joint = estimate.joint;
+  std::vector<ClosureResult> all = collect_radio_links(joint);
+  for (auto& closure : collect_fingerprint_closures(joint)) all.push_back(std::move(closure));
+  const auto& closures = estimate.measured.closures;
+  const auto& judgements = estimate.judgement.closures;
+  const auto add = [&](const auto& of_origin, const auto& judged) {
+    for (auto& closure : collect_closures(joint, of_origin, judged)) all.push_back(std::move(closure));
+  };
+  add(closures.sequences, judgements.sequences);
+  add(closures.scans, judgements.scans);
+  add(closures.loops, judgements.loops);
+  return all;
+}
+
+template <class Pose>
 RunResult describe_run(const Mission& mission, const Mission& measured, const MeasuredScans& scans,
                        const RadioMeasurements& radio, const TeamEstimate<Pose>& estimate,
                        std::optional<OverlapStage> overlaps, const RunParams& params,
@@ -252,6 +251,8 @@ RunResult describe_run(const Mission& mission, const Mission& measured, const Me
   return result;
 }
 
+template std::vector<ClosureResult> collect_all_closures(const TeamEstimate<SE2>&);
+template std::vector<ClosureResult> collect_all_closures(const TeamEstimate<SE3>&);
 template RunResult describe_run(const Mission&, const Mission&, const MeasuredScans&,
                                 const RadioMeasurements&, const TeamEstimate<SE2>&,
                                 std::optional<OverlapStage>, const RunParams&, const RunOptions&,

@@ -15,6 +15,10 @@
 
 namespace radioslam {
 
+/// Outcomes of all links and closures, by kind.
+template <class Pose>
+std::vector<ClosureResult> collect_all_closures(const TeamEstimate<Pose>& estimate);
+
 /// The results of the final estimate, without timings. `measured`: the mission with all of its odometry, at
 /// whose samples, and those of an IMU that `scans` were tracked with, trajectories are dense. `overlaps`:
 /// nothing if no pairs were searched for.

@@ -97,30 +97,6 @@ using ClosureGroup = std::pair<ClosureKind, ClosureStatus>;
 using Reason = std::tuple<ClosureKind, ClosureStatus, std::string>;
 using StatisticsByReason = std::map<Reason, std::vector<double>>;
 
-const char* name(ClosureKind kind) {
-  switch (kind) {
-    case ClosureKind::kRange:
-      return "range";
-    case ClosureKind::kAoa:
-      return "aoa";
-    case ClosureKind::kFingerprint:
-      return "fingerprint";
-    case ClosureKind::kSequence:
-      return "sequence";
-    case ClosureKind::kLidar:
-      return "lidar";
-    case ClosureKind::kMatch:
-      return "match";
-    case ClosureKind::kFile:
-      return "file";
-  }
-  return "";
-}
-
-const char* name(ClosureStatus status) {
-  return status == ClosureStatus::kAccepted ? "accepted" : "rejected";
-}
-
 std::map<ClosureGroup, std::vector<std::size_t>> by_group(const std::vector<ClosureResult>& closures) {
   std::map<ClosureGroup, std::vector<std::size_t>> groups;
   for (std::size_t c = 0; c < closures.size(); ++c)
@@ -139,8 +115,8 @@ StatisticsByReason by_reason(const std::vector<ClosureResult>& closures) {
 PageData reason_rows(const StatisticsByReason& statistics) {
   PageData rows = PageData::array();
   for (const auto& [reason, values] : statistics) {
-    rows.push_back({{"kind", name(std::get<0>(reason))},
-                    {"status", name(std::get<1>(reason))},
+    rows.push_back({{"kind", name_of(std::get<0>(reason))},
+                    {"status", name_of(std::get<1>(reason))},
                     {"reason", std::get<2>(reason)},
                     {"count", values.size()},
                     {"statistic_median", rounded_relative(upper_median(values))}});
@@ -208,6 +184,30 @@ class DrawnClosures {
 
 }  // namespace
 
+const char* name_of(ClosureKind kind) {
+  switch (kind) {
+    case ClosureKind::kRange:
+      return "range";
+    case ClosureKind::kAoa:
+      return "aoa";
+    case ClosureKind::kFingerprint:
+      return "fingerprint";
+    case ClosureKind::kSequence:
+      return "sequence";
+    case ClosureKind::kLidar:
+      return "lidar";
+    case ClosureKind::kMatch:
+      return "match";
+    case ClosureKind::kFile:
+      return "file";
+  }
+  return "";
+}
+
+const char* name_of(ClosureStatus status) {
+  return status == ClosureStatus::kAccepted ? "accepted" : "rejected";
+}
+
 PageData candidate_data(const RunResult& result, const ReportParams& params) {
   std::vector<FilledPair> pairs = by_robots(result);
   const std::size_t robot_pairs = pairs.size();
@@ -240,8 +240,8 @@ PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, 
     std::size_t drawn = 0;
     for (const std::size_t m : evenly_spaced(members.size(), limit))
       if (lines.add(closures[members[m]], groups.size())) ++drawn;
-    groups.push_back({{"kind", name(group.first)},
-                      {"status", name(group.second)},
+    groups.push_back({{"kind", name_of(group.first)},
+                      {"status", name_of(group.second)},
                       {"count", members.size()},
                       {"drawn", drawn}});
   }
@@ -251,7 +251,7 @@ PageData closure_data(const RunResult& result, const DrawnKeyframes& keyframes, 
 PageData compared_closure_data(const ClosuresByKind& closures) {
   PageData rows = PageData::array();
   for (const auto& [kind, counts] : closures) {
-    rows.push_back({{"kind", name(kind)},
+    rows.push_back({{"kind", name_of(kind)},
                     {"accepted", counts.accepted},
                     {"true_accepted", counts.true_accepted},
                     {"rejected", counts.rejected},

@@ -22,6 +22,10 @@ namespace radioslam {
 /// "distances_evaluated" are null if the run did not search.
 PageData candidate_data(const RunResult& result, const ReportParams& params);
 
+/// As the page has them.
+const char* name_of(ClosureKind kind);
+const char* name_of(ClosureStatus status);
+
 /// Per robot, the drawn keyframes as indices into its estimate.
 using DrawnKeyframes = std::vector<std::vector<std::size_t>>;
 

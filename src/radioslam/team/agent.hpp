@@ -86,6 +86,7 @@ class Agent {
   std::size_t clouds() const { return scans_.clouds(); }
   /// Null if it has none of the robot.
   const ScansSoFar* scans_of(const std::string& robot) const { return scans_.scans_of(robot); }
+  const AgentScans& scans() const { return scans_; }
   /// Where the robots are: by its own estimate, or by the solution that it took.
   PublishedFrame frame_of(const std::string& robot) const;
 

@@ -216,6 +216,7 @@ class AgentEstimateOf : public AgentEstimate {
     add(team.measured.closures.sequences, team.judgement.closures.sequences);
     return found;
   }
+  AnySolution solution() const override { return known_.last(); }
   std::size_t records() const override { return known_.known().records; }
 
  private:

@@ -21,6 +21,10 @@ namespace radioslam {
 
 using AnyGrownEstimate = std::variant<GrownEstimate<SE2>, GrownEstimate<SE3>>;
 
+/// An estimate of a mission in the plane or in space; null before the first.
+using AnySolution =
+    std::variant<std::shared_ptr<const TeamSolution<SE2>>, std::shared_ptr<const TeamSolution<SE3>>>;
+
 /// Work that depends on nothing but what the job holds: two jobs of the same key have the same result, on any
 /// machine. The parameters must outlive it.
 struct EstimateJob {
@@ -80,6 +84,7 @@ class AgentEstimate {
   /// By scans, and those that were recorded.
   virtual std::vector<JudgedClosure> closures() const = 0;
   virtual std::size_t records() const = 0;
+  virtual AnySolution solution() const = 0;
 };
 
 std::unique_ptr<AgentEstimate> agent_estimate(int dimension, const RunParams& params,

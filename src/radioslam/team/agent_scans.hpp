@@ -46,6 +46,8 @@ class AgentScans {
     const auto other = others_.find(robot);
     return other == others_.end() ? nullptr : &other->second;
   }
+  const ScansSoFar& own() const { return own_; }
+  const std::map<std::string, ScansSoFar>& others() const { return others_; }
   /// Whether work is done, or will be.
   bool is_busy() const { return is_working_ || news_ > 0 || has_left_out_; }
 

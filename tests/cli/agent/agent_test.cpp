@@ -1,6 +1,7 @@
 // radioslam agent, and radioslam team over DDS: processes that find each other end where a run ends, go on
 // after they were killed, and conclude when they are asked to.
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -188,12 +189,92 @@ TEST(Agents, ATeamNamesTheOneThatDied) {
   expect_complete(folder.path() / "bereaved/agents/a");
 }
 
+/// A connection to a port of this machine that asks for this path and reads what comes first.
+class Asked {
+ public:
+  Asked(int port, const std::string& path) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const std::string words = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    if (::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof(to)) == 0)
+      EXPECT_EQ(::send(socket_, words.data(), words.size(), 0), static_cast<ssize_t>(words.size()));
+  }
+  ~Asked() { ::close(socket_); }
+  Asked(const Asked&) = delete;
+  Asked& operator=(const Asked&) = delete;
+
+  /// Until this has come, or the connection ends.
+  std::string read_until(const std::string& words) {
+    char block[4096];
+    for (ssize_t got = 0;
+         read_.find(words) == std::string::npos && (got = ::recv(socket_, block, sizeof(block), 0)) > 0;)
+      read_.append(block, static_cast<std::size_t>(got));
+    return read_;
+  }
+
+ private:
+  int socket_;
+  std::string read_;
+};
+
+/// A port of this machine that nobody else gets meanwhile; listened at or not.
+struct HeldPort {
+  explicit HeldPort(bool listens) : socket(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(at);
+    EXPECT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&at), size), 0);
+    if (listens) EXPECT_EQ(::listen(socket, 1), 0);
+    ::getsockname(socket, reinterpret_cast<sockaddr*>(&at), &size);
+    port = ntohs(at.sin_port);
+  }
+  ~HeldPort() { ::close(socket); }
+  HeldPort(const HeldPort&) = delete;
+  HeldPort& operator=(const HeldPort&) = delete;
+
+  int socket, port = 0;
+};
+
+TEST(Agents, ConcludeThoughTheirPageIsOpen) {
+  const auto& folder = short_drive();
+  const TemporaryFolder place;
+  fs::create_symlink(folder.path() / "town", place.path() / "town");
+  int port = 0;
+  { port = HeldPort(false).port; }
+  std::vector<std::string> words = agent("a", now());
+  words.insert(words.end(), {"--live", std::to_string(port)});
+  Started a(words, place.path());
+  ASSERT_TRUE(a.says("robot a is shown at http://127.0.0.1:" + std::to_string(port) + "/"));
+  Asked page(port, "/"), events(port, "/events"), idle(port, "/events");
+  EXPECT_NE(page.read_until("</html>").find("Robot a"), std::string::npos);
+  const std::string whole = events.read_until("\"whole\":true");
+  EXPECT_NE(whole.find("data: {\"t\":"), std::string::npos) << whole.substr(0, 1000);
+  a.signal(SIGTERM);
+  EXPECT_NE(events.read_until("event: end").find("event: end"), std::string::npos);
+  const Outcome outcome = a.wait();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  expect_complete(place.path() / "of-a");
+}
+
 TEST(Agents, WrongOptionsAreNamed) {
   const auto& folder = short_drive();
+  const HeldPort held(true);
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
       {{"agent", "--robot", "z", "--log", "town"}, "no robot 'z'"},
       {{"agent", "--robot", "a", "--log", "town", "--start", "soon"}, "no time in seconds"},
       {{"agent", "--robot", "a", "--log", "nowhere"}, "nowhere"},
+      {{"agent", "--robot", "a", "--log", "town", "--live", "x"}, "'x' is no PORT"},
+      {{"agent", "--robot", "a", "--log", "town", "--live", "0.0.0.0:0", "--live-token", "a b"},
+       "a token consists"},
+      {{"agent", "--robot", "a", "--log", "town", "--live", std::to_string(held.port)},
+       "another program has that port"},
+      {{"team", "town", "--live", "8080"}, "--live is for --transport dds alone"},
+      {{"team", "town", "--transport", "dds", "--live", "0"}, "a team needs a port"},
+      {{"team", "town", "--transport", "dds", "--live", std::to_string(held.port)},
+       "another program has that port"},
       {{"team", "town", "--rate", "2"}, "for --transport dds alone"},
       {{"team", "town", "--transport", "dds", "--loss", "0.5"}, "for --transport in-process alone"}};
   for (const auto& [call, what] : wrong) {

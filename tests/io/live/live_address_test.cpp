@@ -42,5 +42,14 @@ TEST(LiveAddress, DrawsTokensThatDiffer) {
   EXPECT_NE(drawn_token(), drawn_token());
 }
 
+TEST(LiveAddress, HasATokenWhereOthersReachIt) {
+  EXPECT_EQ(token_of({"127.0.0.1", 1}, ""), "");
+  EXPECT_EQ(token_of({"127.0.0.1", 1}, "a.B_~-9"), "a.B_~-9");
+  EXPECT_EQ(token_of({"0.0.0.0", 1}, "").size(), 32u);
+  EXPECT_EQ(token_of({"0.0.0.0", 1}, "x"), "x");
+  for (const char* odd : {"a b", "a&b", "\xc3\xa4", "<", "\n"})
+    expect_refusal([&] { token_of({"0.0.0.0", 1}, odd); }, 0, "a token consists of");
+}
+
 }  // namespace
 }  // namespace radioslam

@@ -15,7 +15,8 @@ constexpr double kTick_s = 0.1, kCommit_s = 1, kObserve_s = 5;
 constexpr milliseconds kLook{250};
 constexpr milliseconds kLeastTick{5}, kLeastCommit{100};          // of a mission that is replayed quickly
 constexpr std::chrono::seconds kLeastQuiet{3}, kLeastSettle{30};  // the same
-constexpr milliseconds kLastWords{1000};                          // to send what is left
+constexpr std::size_t kMostCounted = kMaxTeam * std::size(kAgentMessageKinds);  // senders and kinds
+constexpr milliseconds kLastWords{1000};                                        // to send what is left
 
 SteadyClock::duration at_least(double mission_s, double rate, milliseconds least) {
   return std::max<SteadyClock::duration>(least, std::chrono::duration_cast<SteadyClock::duration>(
@@ -59,6 +60,8 @@ TeamRun AgentProcess::live() {
     const Stamp now = clock_.now();
     step(now);
     note_changes();
+    if (setup_.page && setup_.page->is_due())
+      setup_.page->show(agent_, run_, outbox_.traffic(), received_, now);
     if (setup_.is_to_conclude() && !std::exchange(is_concluding_, true)) {
       say({now, "is asked to come to its end"});
       front_end_.conclude();
@@ -93,6 +96,12 @@ void AgentProcess::take(Arrival arrival, Stamp now) {
 
 void AgentProcess::hear(const TeamMessage& message, Stamp now) {
   run_.counts[name_].bytes_received += message.octets.size();
+  const std::tuple link{message.from, name_, message.kind};
+  if (received_.size() < kMostCounted || received_.contains(link)) {
+    LinkTraffic& of = received_[link];
+    ++of.messages;
+    of.bytes += message.octets.size();
+  }
   agent_.hear(message.from, message.octets, now);
 }
 

@@ -15,6 +15,7 @@
 
 #include "radioslam/cli/agent/agent_publisher.hpp"
 #include "radioslam/cli/agent/front_end_thread.hpp"
+#include "radioslam/cli/agent/live_page.hpp"
 #include "radioslam/cli/agent/outbox.hpp"
 #include "radioslam/cli/agent/worker.hpp"
 #include "radioslam/ros_node/ros_subscriptions.hpp"
@@ -34,6 +35,7 @@ struct AgentProcessSetup {
   std::function<bool()> is_to_conclude = {};  ///< with what is known; no more samples come then
   RosSubscriptions* subscriptions = nullptr;  ///< of a robot that measures
   AgentPublisher* publisher = nullptr;        ///< of one that shows what it knows
+  LivePage* page = nullptr;                   ///< that shows it, if any
 };
 
 /// What the robot has said before; nothing if its program was never started.
@@ -78,6 +80,7 @@ class AgentProcess {
   FrontEndThread front_end_;
   Worker worker_;
   TeamRun run_;
+  TeamTraffic received_;
   std::set<std::string> said_;
   std::optional<Stamp> committed_, observed_;
   std::optional<SteadyClock::time_point> committed_at_, looked_,

@@ -22,6 +22,7 @@
 #include "radioslam/cli/ending.hpp"
 #include "radioslam/cli/run_parameters.hpp"
 #include "radioslam/cli/team/journal_store.hpp"
+#include "radioslam/cli/team/live_options.hpp"
 #include "radioslam/cli/team/network_options.hpp"
 #include "radioslam/cli/team/team_output.hpp"
 #include "radioslam/io/text/atomic_output.hpp"
@@ -31,7 +32,7 @@ namespace radioslam::cli {
 namespace {
 
 struct AgentArguments {
-  std::string robot, log, journal, output, start;
+  std::string robot, log, journal, output, start, live, live_token;
   std::vector<std::string> peers;
   DdsConfig dds;
   double rate = 1, cap = 1e6;
@@ -79,6 +80,17 @@ DdsConfig dds_config(const AgentArguments& arguments) {
   return config;
 }
 
+/// Where the page is, and the token that it asks for: none on this machine alone.
+LivePageSetup page_setup(const AgentArguments& arguments) {
+  const LiveAddress address = parse_live_address(arguments.live);
+  refuse_unusable(address);
+  return {.address = address,
+          .token = token_of(address, arguments.live_token),
+          .robot = arguments.robot,
+          .start = {},
+          .rate = arguments.rate};
+}
+
 /// What it is the same for, wherever its samples come from.
 struct Life {
   const AgentArguments& arguments;
@@ -86,6 +98,7 @@ struct Life {
   OutputFolder& output;
   DdsDomain& domain;
   AgentStore& store;
+  std::optional<LivePageSetup> page;
 };
 
 void live(const Life& life, AgentProcessSetup setup, const MissionInput& given, const MissionClock& clock,
@@ -103,7 +116,16 @@ void live(const Life& life, AgentProcessSetup setup, const MissionInput& given, 
               << " s: robot " << robot << ' ' << event.what << std::endl;
   };
   setup.is_to_conclude = is_to_conclude;
+  std::optional<LivePage> page;
+  if (life.page) {
+    LivePageSetup page_of = *life.page;
+    page_of.dimension = setup.dimension;
+    page_of.start = clock.begin();
+    setup.page = &page.emplace(page_of, life.params);
+    std::cout << "robot " << setup.robot << " is shown at " << page->url() << std::endl;
+  }
   const TeamRun run = AgentProcess(setup, life.store, clock, life.domain, source).live();
+  if (page) page->end();
   write_agent(run, life.arguments.robot, life.params, given, life.output.path(), clock.begin());
   write_tables(life.output.path(), run, clock.begin());
   life.output.commit();
@@ -151,6 +173,8 @@ void live_on_ros(const Life& life) {
 void run_agent(const AgentArguments& arguments) {
   if (arguments.ros.is_on != arguments.log.empty())
     throw InputError("agent", 0, "a robot's samples come from --log MISSION or from --ros2, one of the two");
+  std::optional<LivePageSetup> page;
+  if (!arguments.live.empty()) page = page_setup(arguments);
   const auto params = with_settings(
       RunParams{}, collect_settings(arguments.parameters.config_path, arguments.parameters.set));
   std::vector<std::string> inputs{arguments.log, arguments.journal};
@@ -164,7 +188,7 @@ void run_agent(const AgentArguments& arguments) {
     store = std::make_unique<JournalStore>(arguments.journal, arguments.robot, new_life());
   DdsDomain domain(dds_config(arguments));
   conclude_on_signal();
-  const Life life{arguments, params, output, domain, *store};
+  const Life life{arguments, params, output, domain, *store, std::move(page)};
   if (arguments.ros.is_on)
     live_on_ros(life);
   else
@@ -211,6 +235,7 @@ void add_agent_options(CLI::App& program) {
   command->add_option("--cap", options->cap, "Largest number of bytes a second to each other robot")
       ->check(CLI::Range(1e3, 1e9))
       ->capture_default_str();
+  add_live_options(*command, options->live, options->live_token);
   add_output_option(*command, options->output, "Folder to write; the folder of an earlier run is replaced");
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);

@@ -19,6 +19,7 @@
 #include "radioslam/cli/progress_line.hpp"
 #include "radioslam/cli/run_parameters.hpp"
 #include "radioslam/cli/team/journal_store.hpp"
+#include "radioslam/cli/team/live_options.hpp"
 #include "radioslam/cli/team/network_options.hpp"
 #include "radioslam/cli/team/process_team.hpp"
 #include "radioslam/cli/team/team_output.hpp"
@@ -35,7 +36,7 @@ constexpr const char* kDds = "dds";
 
 struct TeamArguments {
   std::vector<std::string> mission;
-  std::string output, transport;
+  std::string output, transport, live, live_token;
   NetworkOptions network;
   double cap = 1e6;
   std::size_t solvers = kMaxTeam;
@@ -47,7 +48,7 @@ struct TeamArguments {
 /// Options that one kind of transport alone has.
 constexpr std::array kOfInProcess{"--loss", "--delay",   "--partition", "--kill",
                                   "--late", "--solvers", "--seed"};
-constexpr std::array kOfDds{"--rate", "--domain"};
+constexpr std::array kOfDds{"--rate", "--domain", "--live", "--live-token"};
 
 TeamRun run_in_process(const TeamArguments& arguments, const Mission& mission, const RunParams& params,
                        const Truth& truth, const fs::path& folder) {
@@ -72,6 +73,20 @@ TeamRun run_in_process(const TeamArguments& arguments, const Mission& mission, c
   return run;
 }
 
+/// Where every robot's page is; said before anything starts.
+void set_pages(const TeamArguments& arguments, ProcessTeamSetup& setup) {
+  LiveAddress page = parse_live_address(arguments.live);
+  if (page.port == 0)
+    throw InputError("--live", 0, "a team needs a port, with those behind it for the others");
+  setup.live = page;
+  setup.live_token = token_of(page, arguments.live_token);
+  for (const std::string& robot : setup.robots) {
+    refuse_unusable(page);
+    std::cout << "robot " << robot << " is shown at " << url_of(page, setup.live_token) << std::endl;
+    ++page.port;
+  }
+}
+
 ProcessTeamRun run_by_dds(const TeamArguments& arguments, const Mission& mission, const fs::path& folder) {
   ProcessTeamSetup setup{.mission = arguments.mission.front(),
                          .robots = names_of(mission.robots),
@@ -86,6 +101,7 @@ ProcessTeamRun run_by_dds(const TeamArguments& arguments, const Mission& mission
     setup.options.insert(setup.options.end(), {"--set", assignment});
   const std::size_t threads = std::max<std::size_t>(1, thread_count() / setup.robots.size());
   setup.options.insert(setup.options.end(), {"--threads", std::to_string(threads)});
+  if (!arguments.live.empty()) set_pages(arguments, setup);
   return run_processes(setup, folder);
 }
 
@@ -180,6 +196,7 @@ void add_team(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--domain", options->domain, "DDS domain of the team (default: a free one)")
       ->check(CLI::Range(std::uint32_t{0}, std::uint32_t{232}));
+  add_live_options(*command, options->live, options->live_token);
   command->add_option("--seed", options->network.seed, "Random seed of what is lost")->capture_default_str();
   add_parameter_options(*command, options->parameters);
   add_threads_option(*command);

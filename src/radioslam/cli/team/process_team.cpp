@@ -18,6 +18,7 @@
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/cli/ending.hpp"
 #include "radioslam/cli/team/journal_store.hpp"
+#include "radioslam/cli/team/live_options.hpp"
 #include "radioslam/cli/team/team_output.hpp"
 #include "radioslam/io/text/numbers.hpp"
 
@@ -70,6 +71,12 @@ std::vector<std::string> arguments_of(const ProcessTeamSetup& setup, std::uint32
                                  (folder / "journals" / (robot + ".journal")).string(),
                                  "--output",
                                  (folder / "agents" / robot).string()};
+  if (setup.live) {
+    const auto place = std::find(setup.robots.begin(), setup.robots.end(), robot) - setup.robots.begin();
+    LiveAddress page = *setup.live;
+    page.port += static_cast<int>(place);
+    words.insert(words.end(), {"--live", to_string(page)});
+  }
   words.insert(words.end(), setup.options.begin(), setup.options.end());
   return words;
 }
@@ -132,6 +139,7 @@ ProcessTeamRun run_processes(const ProcessTeamSetup& setup, const fs::path& fold
   const std::uint32_t domain = setup.domain ? *setup.domain : free_domain();
   const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
   const std::string begin = format_number(now + kLead_s);
+  if (!setup.live_token.empty()) ::setenv(kLiveTokenVariable, setup.live_token.c_str(), 1);
   conclude_on_signal();
   std::map<pid_t, std::string> agents;
   for (const std::string& robot : setup.robots)

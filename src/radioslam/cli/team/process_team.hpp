@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "radioslam/io/live/live_address.hpp"
 #include "radioslam/team/virtual_team.hpp"
 
 namespace radioslam::cli {
@@ -19,6 +20,9 @@ struct ProcessTeamSetup {
   double rate = 10;
   std::optional<std::uint32_t> domain;  ///< else one that no other team of this machine has
   std::vector<std::string> options;     ///< more, for every agent
+  /// Where the first agent's page is, with those of the others at the ports behind, and the pages' token.
+  std::optional<LiveAddress> live = {};
+  std::string live_token = {};
 };
 
 struct ProcessTeamRun {

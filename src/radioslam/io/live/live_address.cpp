@@ -6,10 +6,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <memory>
+#include <string_view>
 #include <system_error>
 
 #include "radioslam/base/input_error.hpp"
@@ -99,6 +102,16 @@ std::string drawn_token() {
     token += "0123456789abcdef"[byte & 15U];
   }
   return token;
+}
+
+std::string token_of(const LiveAddress& address, const std::string& given) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("._~-").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!std::all_of(given.begin(), given.end(), is_plain))
+    throw InputError("--live-token", 0, "a token consists of letters, digits and ._~-");
+  return given.empty() && !is_loopback(address.host) ? drawn_token() : given;
 }
 
 }  // namespace radioslam

@@ -30,4 +30,8 @@ void refuse_unusable(const LiveAddress& address);
 /// 128 bits from the system's source, as text.
 std::string drawn_token();
 
+/// The token that the page asks for: the given one, of letters, digits and ._~- (else InputError); without
+/// one, none on this machine alone, and a drawn one elsewhere.
+std::string token_of(const LiveAddress& address, const std::string& given);
+
 }  // namespace radioslam

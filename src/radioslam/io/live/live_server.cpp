@@ -147,7 +147,7 @@ struct LiveServer::State : std::enable_shared_from_this<LiveServer::State> {
         [this, reader](std::size_t, httplib::DataSink& sink) {
           const LiveText text = reader->next(kWait);
           if (text && !sink.write(text->data(), text->size())) return false;
-          if (is_ending || reader->is_over()) sink.done();
+          if (reader->is_over() || (is_ending && !text)) sink.done();
           return sink.is_writable();
         },
         [this](bool) { --readers; });

@@ -32,8 +32,8 @@ const alternatives = report.alternatives.map(other => ({
 const groups = report.closures.groups;
 const lines = report.closures.drawn;
 const total = (items, value) => items.reduce((sum, item) => sum + value(item), 0);
-const closures_total = total(groups, g => g.count);
-const closures_drawn = total(groups, g => g.drawn);
+let closures_total = total(groups, g => g.count);
+let closures_drawn = total(groups, g => g.drawn);
 const accepted_total = total(groups.filter(g => g.status === "accepted"), g => g.count);
 const seconds_total = total(report.timings, t => t.seconds);
 

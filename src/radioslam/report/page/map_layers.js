@@ -223,6 +223,8 @@ function draw_scale_bar(context, view) {
   context.fillText(text, left, bottom - 10);
 }
 
+const more_layers = [];  // of a page that has more, drawn on top
+
 function draw_map(context, view) {
   context.clearRect(0, 0, view.width, view.height);
   draw_grid(context, view);
@@ -237,5 +239,6 @@ function draw_map(context, view) {
   if (layers.estimate) draw_paths(context, view, "estimate", { colour: robot_colour, width: many ? 1.2 : 1.8, alpha: 1 });
   if (layers.estimate) draw_starts(context, view);
   if (layers.access_points) draw_access_points(context, view);
+  for (const draw of more_layers) draw(context, view);
   draw_scale_bar(context, view);
 }

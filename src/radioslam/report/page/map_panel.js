@@ -60,10 +60,11 @@ function show_only(chosen) {
 
 function component_chooser(map) {
   if (report.components.length < 2) return [];
-  const options = report.components.map((ids, c) => element("option", { value: c },
+  const options = report.components.map((ids, c) => element("option", { value: c, selected: c === state.frame },
     `frame ${c + 1}: ${ids.length > 3 ? `${ids.slice(0, 2).join(", ")} and ${ids.length - 2} more` : ids.join(", ")}`));
   return [element("select", { "aria-label": "Frame shown", onchange: event => {
-    show_only(robot => robot.component === Number(event.target.value));
+    state.frame = Number(event.target.value);
+    show_only(robot => robot.component === state.frame);
     map.fit();
   } }, ...options)];
 }
@@ -130,21 +131,23 @@ function slider(name, [low, high], key, text) {
 function draw_panel(panel, map) {
   const button = (text, action) => element("button", { type: "button", class: "plain", onclick: action }, text);
   const list = element("div", { class: "robot-list" });
-  const who = group_of_rows(robots.some(r => r.ate) ? "Robots, ATE RMSE" : "Robots", ...component_chooser(map),
+  const list_robots = () => group_of_rows(robots.some(r => r.ate) ? "Robots, ATE RMSE" : "Robots", ...component_chooser(map),
     ...(robots.length > 1 ? [element("div", { class: "panel-buttons" }, button("all", () => show_only(() => true)), button("none", () => show_only(() => false)))] : []), list);
-  who.className = "robots";
   const fill = () => {
     const focused = list.contains(document.activeElement) ? [...list.querySelectorAll("input")].indexOf(document.activeElement) : -1;
     list.replaceChildren(...robots.map(robot_row));
     if (focused >= 0) list.querySelectorAll("input")[focused].focus();
   };
   const build = () => {
+    const who = list_robots();
+    who.className = "robots";
     panel.replaceChildren(...view_rows(map), group_of_rows("Layers", ...layer_rows()),
       ...(groups.length ? [group_of_rows("Closures", ...closure_rows())] : []), who);
     fill();
   };
   changes.on("visibility.panel", fill);
   changes.on("theme.panel", build);
+  changes.on("structure.panel", build);
   build();
 }
 

@@ -220,8 +220,8 @@ function describe_keyframe(robot, i) {
 /// The other robot, and what became of the closure.
 function describe_closure(robot, c) {
   const other = lines.robot_i[c] === robot.index ? lines.robot_j[c] : lines.robot_i[c];
-  const { kind, status, reason } = report.closures.reasons[lines.reason[c]];
-  return [`${kind} with ${other === robot.index ? "itself" : shortened(robots[other].id)}`, `${reason || status}, statistic ${d3.format(".3~g")(lines.statistic[c])}`];
+  const { kind, status, reason } = report.closures.reasons[lines.reason[c]], statistic = lines.statistic ? `, statistic ${d3.format(".3~g")(lines.statistic[c])}` : "";
+  return [`${kind} with ${other === robot.index ? "itself" : shortened(robots[other].id)}`, `${reason || status}${statistic}`];
 }
 
 function map_description() {

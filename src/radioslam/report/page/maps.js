@@ -2,10 +2,10 @@
 // the points by height, and everything by time.
 
 const has_grid = report.maps.some(map => map.grid);
-const time_end = d3.max(robots, robot => (robot.estimate ? robot.estimate.t[robot.estimate.t.length - 1] : 0)) || 0;
+let time_end = d3.max(robots, robot => (robot.estimate ? robot.estimate.t[robot.estimate.t.length - 1] : 0)) || 0;
 
 /// Points of all maps as columns; robot: index in the page.
-const cloud = unpack_points(report.maps.filter(map => map.points));
+let cloud = unpack_points(report.maps.filter(map => map.points));
 
 function unpack_points(maps) {
   const count = total(maps, map => map.points.count);
@@ -24,8 +24,8 @@ function unpack_points(maps) {
 }
 
 const span_of = values => (values.length ? [0.005, 0.995].map(q => d3.quantile(Float32Array.from(values.filter((_, k) => k % Math.ceil(values.length / 20000) === 0)).sort(), q)) : [0, 1]);
-const height_span = span_of(cloud.z);
-const has_heights = cloud.count > 0 && height_span[1] - height_span[0] > 0.2;
+let height_span = span_of(cloud.z);
+let has_heights = cloud.count > 0 && height_span[1] - height_span[0] > 0.2;
 state.top = Infinity;    // height up to which points are shown
 state.until = Infinity;  // time up to which points, trajectories and closures are shown
 state.colour = "robot";

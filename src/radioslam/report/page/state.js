@@ -2,9 +2,9 @@
 //   visibility: visible robots              layers: drawn layers
 //   highlight: one highlighted robot        moment: {robot, t} under the pointer, in the map or in a chart
 //   colour: what colours the map's points   limits: height of points, and time, up to which they are shown
-//   theme: light, dark or paper
+//   theme: light, dark or paper             structure: robots, frames and kinds of closures that there are
 
-const changes = d3.dispatch("visibility", "layers", "highlight", "moment", "theme", "colour", "limits");
+const changes = d3.dispatch("visibility", "layers", "highlight", "moment", "theme", "colour", "limits", "structure");
 const few_robots = 8;
 const many_closures = 10000;  // more would hide the trajectories and are off by default
 
@@ -18,6 +18,7 @@ const state = {
   highlight: null,
   moment: null,
   access_point: null,  // the selected one
+  frame: 0,  // the component that was chosen
   axes: ["x", "y"],
 };
 if (!state.visible.some(v => v)) state.visible = robots.map(() => true);
