@@ -13,6 +13,7 @@
 #include "radioslam/base/random.hpp"
 #include "radioslam/io/dds/dds_names.hpp"
 #include "radioslam/io/dds/team_channel.hpp"
+#include "radioslam/io/ros/ros_topics.hpp"
 #include "radioslam/ros_node/ros_subscriptions.hpp"
 #include "radioslam/team/messages.hpp"
 #include "ros_node/arrivals.hpp"
@@ -101,7 +102,9 @@ class Watcher {
 TEST(RosAgents, MeasurePublishAndWriteWhatTheyKnow) {
   const TemporaryFolder place;
   const Drivers drivers("a", "b"), others("b", "a");
-  Started a(ros_agent("a"), place.path()), b(ros_agent("b"), place.path());
+  auto words = ros_agent("a");
+  words.insert(words.end(), {"--mcap", "a.mcap"});
+  Started a(words, place.path()), b(ros_agent("b"), place.path());
   Watcher odometry("/a/radioslam/odom", "nav_msgs/msg/Odometry"), transforms("/tf", "tf2_msgs/msg/TFMessage"),
       path("/a/radioslam/path", "nav_msgs/msg/Path"),
       markers("/a/radioslam/markers", "visualization_msgs/msg/MarkerArray");
@@ -129,6 +132,10 @@ TEST(RosAgents, MeasurePublishAndWriteWhatTheyKnow) {
   }
   for (const char* file : {"a.tum", "b.tum", "summary.json", "report.html", "events.csv"})
     EXPECT_TRUE(fs::exists(place.path() / "of-a" / file)) << file;
+  const RosTopicIndex recorded = index_recording(place.path() / "a.mcap");
+  for (const char* topic : {"/a/radioslam/odom", "/a/radioslam/path", "/a/radioslam/markers", "/tf"})
+    EXPECT_NE(recorded.find(topic), nullptr) << topic;
+  EXPECT_GE(recorded.find("/a/radioslam/odom")->messages, 60U);
 }
 
 /// Of a robot alone the team's frame is where its odometry began: its pose there is by what its drivers say

@@ -12,6 +12,7 @@
 
 #include "radioslam/base/input_error.hpp"
 #include "radioslam/cli/agent/agent_process.hpp"
+#include "radioslam/cli/agent/mcap_sink.hpp"
 #include "radioslam/cli/agent/recorded_source.hpp"
 #include "radioslam/cli/agent/ros_options.hpp"
 #include "radioslam/cli/agent/ros_source.hpp"
@@ -32,7 +33,7 @@ namespace radioslam::cli {
 namespace {
 
 struct AgentArguments {
-  std::string robot, log, journal, output, start, live, live_token;
+  std::string robot, log, journal, output, start, mcap, live, live_token;
   std::vector<std::string> peers;
   DdsConfig dds;
   double rate = 1, cap = 1e6;
@@ -110,6 +111,11 @@ void live(const Life& life, AgentProcessSetup setup, const MissionInput& given, 
     publisher.add(sink.emplace(life.domain, published.topics()));
     setup.publisher = &published;
   }
+  std::optional<McapSink> mcap;
+  if (!life.arguments.mcap.empty()) {
+    publisher.add(mcap.emplace(life.arguments.mcap));
+    setup.publisher = &published;
+  }
   setup.agent.bytes_s = life.arguments.cap;
   setup.say = [&](const std::string& robot, const TeamEvent& event) {
     std::cout << std::fixed << std::setprecision(1) << seconds_between(clock.begin(), event.at)
@@ -129,6 +135,7 @@ void live(const Life& life, AgentProcessSetup setup, const MissionInput& given, 
   write_agent(run, life.arguments.robot, life.params, given, life.output.path(), clock.begin());
   write_tables(life.output.path(), run, clock.begin());
   life.output.commit();
+  if (mcap) mcap->commit();
 }
 
 void live_through_recording(const Life& life) {
@@ -178,6 +185,7 @@ void run_agent(const AgentArguments& arguments) {
   const auto params = with_settings(
       RunParams{}, collect_settings(arguments.parameters.config_path, arguments.parameters.set));
   std::vector<std::string> inputs{arguments.log, arguments.journal};
+  if (!arguments.mcap.empty()) refuse_replacing_inputs(arguments.mcap, inputs);
   if (!arguments.ros.mission.empty()) inputs.push_back(arguments.ros.mission);
   refuse_replacing_inputs(arguments.output, inputs);
   OutputFolder output(arguments.output, kRunFolder);
@@ -205,6 +213,9 @@ void add_agent_options(CLI::App& program) {
   command->add_option("--log", options->log, "Mission whose recordings of the robot are replayed")
       ->type_name("MISSION");
   add_ros_options(*command, options->ros);
+  command
+      ->add_option("--mcap", options->mcap, "Write all that it publishes to this file as well, for Foxglove")
+      ->type_name("FILE");
   command->add_option("--rate", options->rate, "How many times faster than it was recorded")
       ->check(number_from(0.01, 1000))
       ->capture_default_str();
