@@ -44,6 +44,11 @@ step "release"
 configure_and_build release -DRADIOSLAM_BUILD_TESTS=ON -DRADIOSLAM_GROUP_SOURCES=ON -DRADIOSLAM_TEST_SHARDS=2
 scripts/check_words.sh build/release/radioslam
 run_tests release
+
+step "network"
+status=0
+scripts/team_network.sh --short build/release/team-network || status=$?
+if ((status != 0 && status != 77)); then exit "$status"; fi
 if [[ ${1:-} != --all ]]; then exit 0; fi
 
 step "sanitizers"
