@@ -40,6 +40,8 @@ void LivePage::end() {
     changed_.notify_all();
   }
   thread_.join();
+  const LiveText whole = as_event(changes_.whole());  // for who opens it only now
+  feed_->publish(whole, whole);
   feed_->end(std::make_shared<const std::string>("event: end\ndata: {}\n\n"));
 }
 
