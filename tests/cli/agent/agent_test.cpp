@@ -198,8 +198,8 @@ class Asked {
     to.sin_port = htons(static_cast<std::uint16_t>(port));
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     const std::string words = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
-    if (::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof(to)) == 0)
-      EXPECT_EQ(::send(socket_, words.data(), words.size(), 0), static_cast<ssize_t>(words.size()));
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof(to)), 0);
+    EXPECT_EQ(::send(socket_, words.data(), words.size(), MSG_NOSIGNAL), static_cast<ssize_t>(words.size()));
   }
   ~Asked() { ::close(socket_); }
   Asked(const Asked&) = delete;
@@ -227,7 +227,8 @@ struct HeldPort {
     at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof(at);
     EXPECT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&at), size), 0);
-    if (listens) EXPECT_EQ(::listen(socket, 1), 0);
+    const bool is_ready = !listens || ::listen(socket, 1) == 0;
+    EXPECT_TRUE(is_ready);
     ::getsockname(socket, reinterpret_cast<sockaddr*>(&at), &size);
     port = ntohs(at.sin_port);
   }
