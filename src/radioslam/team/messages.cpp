@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::string_view kMagic = "RST1";
 constexpr std::size_t kMaxClouds = 256;
+constexpr std::uint64_t kMaxRecords = std::uint64_t{1} << 40U;  // of a robot
 
 void put_name(WireWriter& out, const std::string& name) {
   out.whole(name.size());
@@ -46,6 +47,7 @@ Digest digest_of(WireReader& in) {
     LogExtent& extent = digest.knows[name_of(in)];
     extent.life = in.u32();
     extent.records = in.whole();
+    if (extent.records > kMaxRecords) in.refuse();
     extent.checksum = in.u32();
   }
   return digest;
@@ -73,7 +75,7 @@ Want want_of(WireReader& in) {
     stretch.life = in.u32();
     stretch.first = in.whole();
     const std::uint64_t length = in.whole();
-    if (length == 0 || length > (std::uint64_t{1} << 40U)) in.refuse();
+    if (length == 0 || length > kMaxRecords) in.refuse();
     stretch.end = stretch.first + length;
     want.stretches.push_back(std::move(stretch));
   }

@@ -25,8 +25,8 @@ enum class CandidateTable {
 struct RunDocuments {
   nlohmann::ordered_json metrics = nullptr;
   nlohmann::ordered_json summary = nullptr;  ///< further members of summary.json
-  std::string graph_g2o;
-  std::string report_html;
+  std::string graph_g2o = {};
+  std::string report_html = {};
   CandidateTable candidates = CandidateTable::kOfResult;
 };
 
