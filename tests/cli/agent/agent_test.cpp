@@ -56,10 +56,11 @@ std::string now() {
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count());
 }
 
+/// Of an agent, or of a team.
 void expect_complete(const fs::path& result) {
-  for (const char* file :
-       {"summary.json", "report.html", "traffic.csv", "agents.csv", "known.csv", "events.csv"})
+  for (const char* file : {"summary.json", "report.html", "traffic.csv", "agents.csv", "events.csv"})
     EXPECT_TRUE(fs::exists(result / file)) << result / file;
+  EXPECT_NE(fs::exists(result / "known.csv"), fs::exists(result / "agents")) << result;
 }
 
 /// Of a temporary name, as outputs have until they are complete.
@@ -272,11 +273,11 @@ TEST(Agents, WrongOptionsAreNamed) {
        "a token consists"},
       {{"agent", "--robot", "a", "--log", "town", "--live", std::to_string(held.port)},
        "another program has that port"},
-      {{"team", "town", "--live", "8080"}, "--live is for --transport dds alone"},
+      {{"team", "town", "--loss", "0.1", "--live", "8080"}, "--live is for --transport dds alone"},
       {{"team", "town", "--transport", "dds", "--live", "0"}, "a team needs a port"},
       {{"team", "town", "--transport", "dds", "--live", std::to_string(held.port)},
        "another program has that port"},
-      {{"team", "town", "--rate", "2"}, "for --transport dds alone"},
+      {{"team", "town", "--loss", "0.1", "--rate", "2"}, "for --transport dds alone"},
       {{"team", "town", "--transport", "dds", "--loss", "0.5"}, "for --transport in-process alone"}};
   for (const auto& [call, what] : wrong) {
     std::vector<std::string> arguments = call;
