@@ -24,10 +24,10 @@ enum class CandidateTable {
 /// Documents of a run besides its result. Empty texts are not written; null metrics are omitted.
 struct RunDocuments {
   nlohmann::ordered_json metrics = nullptr;
-  nlohmann::ordered_json summary = nullptr;  ///< further members of summary.json
   std::string graph_g2o = {};
   std::string report_html = {};
   CandidateTable candidates = CandidateTable::kOfResult;
+  nlohmann::ordered_json summary = nullptr;  ///< further members of summary.json
 };
 
 /// summary.json: robots, counts, seconds, parameters, team_frame, metrics; and mission, dimension, notes.
