@@ -8,7 +8,7 @@ build=(cmake ninja-build g++ libeigen3-dev libnanoflann-dev libmetis-dev libsuit
        zlib1g-dev libbz2-dev liblz4-dev libsqlite3-dev libpcap-dev libcli11-dev nlohmann-json3-dev
        cyclonedds-dev libcpp-httplib-dev node-d3)
 test=(libgtest-dev libceres-dev libfastrtps-dev libfastcdr-dev clang-14 libclang-rt-14-dev python3
-      python3-rosidl python3-empy python3-lark iproute2 nftables)
+      python3-rosidl python3-empy python3-lark iproute2 nftables procps)
 lint=(clang-format-14 clang-tidy-14)
 bench=(libbenchmark-dev)
 
