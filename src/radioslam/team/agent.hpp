@@ -84,8 +84,6 @@ class Agent {
   bool is_busy() const { return scans_.is_busy(); }
   /// Its own and those of others that it has.
   std::size_t clouds() const { return scans_.clouds(); }
-  /// Null if it has none of the robot.
-  const ScansSoFar* scans_of(const std::string& robot) const { return scans_.scans_of(robot); }
   const AgentScans& scans() const { return scans_; }
   /// Where the robots are: by its own estimate, or by the solution that it took.
   PublishedFrame frame_of(const std::string& robot) const;

@@ -40,7 +40,7 @@ class AgentScans {
   /// The new closures, encoded. `own`: the robot's keyframes as its log says them.
   std::vector<std::string> done(const ScanResult& result, const LoggedKeyframes& own);
   std::size_t clouds() const { return clouds_; }
-  /// This robot's, or those of another robot that it has.
+  /// This robot's, or those of another robot that it has; null if it has none.
   const ScansSoFar* scans_of(const std::string& robot) const {
     if (robot == self_) return &own_;
     const auto other = others_.find(robot);

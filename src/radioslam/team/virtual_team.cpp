@@ -256,9 +256,7 @@ std::unique_ptr<AgentStore> store_in_memory(const std::string& robot, std::uint3
   return std::make_unique<MemoryStore>(robot, life);
 }
 
-KnownThen known_then(
-    const Agent& agent, Stamp now, std::uint64_t said,
-    const std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)>& error_of) {
+KnownThen known_then(const Agent& agent, Stamp now, std::uint64_t said, const ErrorOf& error_of) {
   const auto frame = agent.estimate().largest_frame();
   KnownThen then{now, agent.name(), 1, frame.size()};
   std::uint64_t known = 0;

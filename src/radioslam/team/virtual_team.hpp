@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "radioslam/base/progress.hpp"
+#include "radioslam/live/team_stream.hpp"
 #include "radioslam/team/agent.hpp"
 #include "radioslam/team/scripted_robots.hpp"
 #include "radioslam/team/virtual_network.hpp"
@@ -67,14 +68,12 @@ struct VirtualTeamSetup {
   NetworkFaults network = {};
   std::size_t solvers = kMaxTeam;  ///< the first robots; others take their solutions
   std::function<std::unique_ptr<AgentStore>(const std::string&)> store = {};
-  std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of = {};
+  ErrorOf error_of = {};
 };
 
 /// Until every agent that runs knows all, or nothing more comes.
 /// What an agent knows now.
-KnownThen known_then(
-    const Agent& agent, Stamp now, std::uint64_t said,
-    const std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)>& error_of);
+KnownThen known_then(const Agent& agent, Stamp now, std::uint64_t said, const ErrorOf& error_of);
 std::map<std::string, std::map<std::string, std::size_t>> refused_by(const Agent& agent);
 
 TeamRun run_team(const std::vector<ScriptedRobot>& robots, const VirtualTeamSetup& setup,

@@ -30,7 +30,7 @@ struct AgentProcessSetup {
   std::optional<Stamp> end = {};       ///< of the recorded mission
   std::vector<std::string> team = {};  ///< robots that are waited for in the end
   AgentParams agent = {};
-  std::function<std::optional<double>(const std::vector<EstimatedTrajectory>&)> error_of = {};
+  ErrorOf error_of = {};
   std::function<void(const std::string& robot, const TeamEvent&)> say = {};  ///< what the user should know
   std::function<bool()> is_to_conclude = {};  ///< with what is known; no more samples come then
   RosSubscriptions* subscriptions = nullptr;  ///< of a robot that measures

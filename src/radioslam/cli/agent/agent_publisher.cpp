@@ -164,7 +164,7 @@ std::function<PublishedMap()> AgentPublisher::map_job(const Agent& agent, Stamp 
   const auto shown = shown_trajectories(agent);
   std::map<std::string, ScansSoFar> scans;
   for (const auto& [robot, poses] : shown)
-    if (const ScansSoFar* of = agent.scans_of(robot)) scans.emplace(robot, *of);
+    if (const ScansSoFar* of = agent.scans().scans_of(robot)) scans.emplace(robot, *of);
   const RosHeader header{now, frame_id(agent.frame_of(robot_))};
   return [this, shown, scans, header] {
     PublishedMap made;
