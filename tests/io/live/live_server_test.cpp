@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <thread>
+#include <utility>
 
 #include "io/refusal.hpp"
 
@@ -106,13 +107,17 @@ TEST(LiveServer, RefusesABusyPort) {
 TEST(LiveServer, HasFewReadersAtATime) {
   Served served;
   std::vector<std::thread> reading;
-  std::atomic<std::size_t> first_bytes = 0;
+  std::atomic<std::size_t> reached = 0;
   for (std::size_t k = 0; k < LiveServer::kMostReaders; ++k)
     reading.emplace_back([&] {
       httplib::Client client("127.0.0.1", served.server.address().port);
-      client.Get("/events", [&](const char*, std::size_t) { return ++first_bytes, true; });
+      bool is_first = true;
+      client.Get("/events", [&](const char*, std::size_t) {
+        if (std::exchange(is_first, false)) ++reached;
+        return true;
+      });
     });
-  while (first_bytes < LiveServer::kMostReaders) {
+  while (reached < LiveServer::kMostReaders) {
     served.feed->publish(text("c"), text("w"));
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
