@@ -25,7 +25,7 @@ Scanner scanner_of(ScannerKind kind) {
   return scanner;
 }
 
-void expect_end(const std::vector<ScanPose>& poses, const ScanDrive& drive, double off_m, double off_rad) {
+void expect_end(const ScanPoses& poses, const ScanDrive& drive, double off_m, double off_rad) {
   ASSERT_EQ(poses.size(), drive.truth.size());
   EXPECT_LT(distance_between(poses.back().T_start_body, drive.way()), off_m);
   EXPECT_LT(angle_between(poses.back().T_start_body, drive.way()), off_rad);
@@ -359,7 +359,7 @@ std::vector<SE3> turning_on_the_spot() {
   return poses;
 }
 
-double mean_angle_off(const std::vector<ScanPose>& poses, const ScanDrive& drive) {
+double mean_angle_off(const ScanPoses& poses, const ScanDrive& drive) {
   double sum = 0;
   for (std::size_t k = 0; k < poses.size(); ++k)
     sum += angle_between(poses[k].T_start_body, drive.way_to(k)) / static_cast<double>(poses.size());
@@ -396,7 +396,7 @@ Scanner sweeping(ScannerKind kind, double stamp_at) {
   return scanner;
 }
 
-void expect_path(const std::vector<ScanPose>& found, const ScanDrive& drive, std::size_t from) {
+void expect_path(const ScanPoses& found, const ScanDrive& drive, std::size_t from) {
   ASSERT_EQ(found.size(), drive.truth.size());
   for (std::size_t k = from; k < found.size(); ++k) {
     const SE3 motion = found[from].T_start_body.inverse() * found[k].T_start_body;
@@ -420,7 +420,7 @@ TEST(LidarOdometry, DeskewsItsFirstScanByTheGivenMotion) {
     const Scanner scanner = sweeping(ScannerKind::kPlanar, stamp_at);
     const ScanDrive drive = drive_along(furnished_hall(), scanner, fast_straight_drive(), 9);
     LidarOdometry odometer(scanner_traits(log_of(drive), {}), {});
-    std::vector<ScanPose> found;
+    ScanPoses found;
     for (std::size_t k = 0; k < drive.scans.size(); ++k) {
       std::optional<SE3> motion;
       if (k > 0) motion = drive.truth[k - 1].inverse() * drive.truth[k];

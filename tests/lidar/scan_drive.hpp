@@ -48,9 +48,9 @@ inline LidarLog log_of(const ScanDrive& drive) {
   return {drive.stamps, [scans = drive.scans](std::size_t k) { return scans[k]; }};
 }
 
-inline std::vector<ScanPose> odometry_of(const ScanDrive& drive, const LidarParams& params = {}) {
+inline ScanPoses odometry_of(const ScanDrive& drive, const LidarParams& params = {}) {
   LidarOdometry odometer(scanner_traits(log_of(drive), params), params);
-  std::vector<ScanPose> poses;
+  ScanPoses poses;
   for (std::size_t k = 0; k < drive.scans.size(); ++k)
     poses.push_back(odometer.register_scan(drive.stamps[k], drive.scans[k]));
   return poses;

@@ -21,14 +21,14 @@ ScanPose scan_at(const SE3& T, double novelty_ratio) {
 
 SE3 metres_on(double x) { return SE3({x, 0, 0}, Eigen::Quaterniond::Identity()); }
 
-SE3::Jacobian drift_along(const std::vector<ScanPose>& scans) {
+SE3::Jacobian drift_along(const ScanPoses& scans) {
   MapDrift drift(scans.front(), {});
   for (std::size_t k = 1; k < scans.size(); ++k) drift.add(scans[k]);
   return drift.covariance();
 }
 
 TEST(MapDrift, IsNoneOverKnownGround) {
-  std::vector<ScanPose> scans;
+  ScanPoses scans;
   for (int k = 0; k < 100; ++k) scans.push_back(scan_at(metres_on(0.2 * k), 0));
   const SE3::Jacobian drift = drift_along(scans);
   EXPECT_LT(drift.diagonal().head<3>().cwiseSqrt().maxCoeff(), 1e-3);
@@ -41,7 +41,7 @@ TEST(MapDrift, IsNoneOverKnownGround) {
 TEST(MapDrift, IsThatOfAMapThatItsScansMove) {
   constexpr double kRatio = 0.2;
   constexpr int kScans = 30, kRuns = 400;
-  std::vector<ScanPose> scans;
+  ScanPoses scans;
   for (int k = 0; k < kScans; ++k) {
     SE3::Tangent turn;
     turn << 0, 0, 0, 0, 0, 0.05 * k;
@@ -68,7 +68,7 @@ TEST(MapDrift, IsThatOfAMapThatItsScansMove) {
 
 /// If one scan has no information along the corridor, neither has the motion across it.
 TEST(MapDrift, IsWideWhereOneScanSawNothing) {
-  std::vector<ScanPose> scans;
+  ScanPoses scans;
   for (int k = 0; k < 10; ++k) scans.push_back(scan_at(metres_on(0.2 * k), 0.1));
   EXPECT_LT(std::sqrt(drift_along(scans)(0, 0)), kScanSigma_m);
   scans[5].information(0, 0) = 0;
@@ -78,7 +78,7 @@ TEST(MapDrift, IsWideWhereOneScanSawNothing) {
 }
 
 TEST(MapDrift, OntoANewMapIsThatOfTheStepToIt) {
-  std::vector<ScanPose> scans{scan_at(metres_on(0), 0.1), scan_at(metres_on(3), 1)};
+  ScanPoses scans{scan_at(metres_on(0), 0.1), scan_at(metres_on(3), 1)};
   scans[1].status = ScanStatus::kNewMap;
   scans[1].covariance = 4 * SE3::Jacobian::Identity();
   const SE3::Jacobian drift = drift_along(scans);

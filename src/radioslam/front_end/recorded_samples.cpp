@@ -82,10 +82,7 @@ MotionSources sources_of(const Robot& robot) {
 void amend_with_hindsight(FrontEnd& front_end, const TrackedScans& tracked, const Robot& robot,
                           const ScanStageParams& params) {
   if (tracked.track.poses.empty()) return;
-  ScanTrajectory track;
-  track.poses = tracked.track.poses;
-  track.is_level = tracked.track.is_level;
-  front_end.amend(odometry_from_scans(robot, track, params));
+  front_end.amend(odometry_from_scans(robot, tracked.track, params));
 }
 
 }  // namespace radioslam

@@ -51,7 +51,7 @@ bool ScanGapDetector::is_after_gap(Stamp stamp) {
   return dt_s > max_s;
 }
 
-Trajectory<SE3> trajectory_of(const std::vector<ScanPose>& scans) {
+Trajectory<SE3> trajectory_of(const ScanPoses& scans) {
   std::vector<StampedPose<SE3>> poses;
   for (const ScanPose& scan : scans) poses.push_back({scan.stamp, scan.T_start_body});
   return Trajectory<SE3>(std::move(poses));

@@ -9,8 +9,8 @@
 // Why each step is as it is: docs/lidar_odometry.md.
 #pragma once
 
+#include <deque>
 #include <optional>
-#include <vector>
 
 #include "radioslam/base/stamp.hpp"
 #include "radioslam/geometry/se3.hpp"
@@ -73,7 +73,10 @@ struct ScanPose {
   std::optional<ScanPyramid> first_cloud = {};
 };
 
-Trajectory<SE3> trajectory_of(const std::vector<ScanPose>& scans);
+/// In pieces: an hour's poses are tens of megabytes, and grow.
+using ScanPoses = std::deque<ScanPose>;
+
+Trajectory<SE3> trajectory_of(const ScanPoses& scans);
 
 class LidarOdometry {
  public:

@@ -31,7 +31,7 @@ void LoggedKeyframes::add(const AmendmentRecord& amendment) {
 
 ScansSoFar::ScansSoFar(const ReplayedRobot& robot) {
   if (!robot.tracked || robot.tracked->track.poses.empty() || !robot.tracked->traits) return;
-  ScanTrajectory track = robot.tracked->track;
+  const ScanTrajectory& track = robot.tracked->track;
   std::vector<Stamp> stamps;
   for (const std::size_t k : track.keyframes) stamps.push_back(track.poses[k].stamp);
   const ScanKeyframes all = extract_keyframes(track, *robot.tracked->traits);

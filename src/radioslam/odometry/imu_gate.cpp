@@ -8,7 +8,7 @@
 
 namespace radioslam {
 
-bool ImuGate::test(const std::vector<ScanPose>& scans, const std::vector<ImuSample>& samples) {
+bool ImuGate::test(const ScanPoses& scans, const std::vector<ImuSample>& samples) {
   if (trust_ == ImuTrust::kRejected || scans.empty()) return false;
   const Stamp now = scans.back().stamp;
   if (!first_) first_ = last_test_ = now;
@@ -26,7 +26,7 @@ bool ImuGate::test(const std::vector<ScanPose>& scans, const std::vector<ImuSamp
   return true;
 }
 
-void ImuGate::conclude(const std::vector<ScanPose>& scans, const std::vector<ImuSample>& samples) {
+void ImuGate::conclude(const ScanPoses& scans, const std::vector<ImuSample>& samples) {
   if (trust_ != ImuTrust::kUntested) return;
   if (auto wrong = inconsistency(scans, samples))
     reject(std::move(*wrong));
@@ -39,7 +39,7 @@ void ImuGate::reject(std::string reason) {
   reason_ = std::move(reason);
 }
 
-std::optional<std::string> ImuGate::inconsistency(const std::vector<ScanPose>& scans,
+std::optional<std::string> ImuGate::inconsistency(const ScanPoses& scans,
                                                   const std::vector<ImuSample>& samples) const {
   if (scans.empty()) return std::nullopt;
   const auto is_recent = [&](const auto& of) {

@@ -34,15 +34,15 @@ class ImuGate {
 
   /// Tests the samples against these scans, in time order, if it is time to. Returns whether its trust has
   /// changed.
-  bool test(const std::vector<ScanPose>& scans, const std::vector<ImuSample>& samples);
+  bool test(const ScanPoses& scans, const std::vector<ImuSample>& samples);
 
   /// The last test: what is untested is trusted unless something is wrong.
-  void conclude(const std::vector<ScanPose>& scans, const std::vector<ImuSample>& samples);
+  void conclude(const ScanPoses& scans, const std::vector<ImuSample>& samples);
 
   void reject(std::string reason);
 
  private:
-  std::optional<std::string> inconsistency(const std::vector<ScanPose>& scans,
+  std::optional<std::string> inconsistency(const ScanPoses& scans,
                                            const std::vector<ImuSample>& samples) const;
 
   InertialParams params_;

@@ -1,7 +1,6 @@
 #include "radioslam/odometry/lidar_inertial_smoothing.hpp"
 
 #include <algorithm>
-#include <span>
 
 #include "radioslam/inertial/preintegration.hpp"
 #include "radioslam/mission/odometry_edge.hpp"
@@ -17,7 +16,7 @@ struct InertialOdometry {
   double cost_per_step = 0;              ///< squared norm of the residuals per step
 };
 
-SE3::Jacobian drift_between(const std::vector<ScanPose>& scans, std::size_t from, std::size_t to,
+SE3::Jacobian drift_between(const ScanPoses& scans, std::size_t from, std::size_t to,
                             const InertialStageParams& params) {
   MapDrift drift(scans[from], params);
   for (std::size_t k = from + 1; k <= to; ++k) drift.add(scans[k]);
@@ -26,7 +25,7 @@ SE3::Jacobian drift_between(const std::vector<ScanPose>& scans, std::size_t from
 
 /// Indices of the scans with a state: the first, the last, those at least `node_s` after the previous one,
 /// and the scans on either side of a new map's start.
-std::vector<std::size_t> nodes_of(const std::vector<ScanPose>& scans, double node_s) {
+std::vector<std::size_t> nodes_of(const ScanPoses& scans, double node_s) {
   std::vector<std::size_t> nodes;
   for (std::size_t k = 0; k < scans.size(); ++k)
     if (nodes.empty() || k + 1 == scans.size() || scans[k].status == ScanStatus::kNewMap ||
@@ -38,26 +37,28 @@ std::vector<std::size_t> nodes_of(const std::vector<ScanPose>& scans, double nod
 
 /// The body's poses at the scans, starting from `state`, by the IMU, or by the scans if IMU samples are
 /// missing.
-std::vector<SE3> path_from(const InertialState& state, std::span<const ScanPose> scans,
+std::vector<SE3> path_from(const InertialState& state, const std::vector<StampedPose<SE3>>& scans,
                            const std::vector<ImuSample>& samples, const ImuNoiseParams& noise) {
   std::vector<Stamp> stamps;
-  for (const ScanPose& scan : scans) stamps.push_back(scan.stamp);
+  for (const auto& scan : scans) stamps.push_back(scan.stamp);
   std::vector<SE3> path;
   if (const auto states = predict_motion(state, stamps.front(), samples, stamps, noise))
     for (const InertialState& there : *states) path.push_back(there.T_world_body);
   else
-    for (const ScanPose& scan : scans)
-      path.push_back(state.T_world_body * scans.front().T_start_body.inverse() * scan.T_start_body);
+    for (const auto& scan : scans)
+      path.push_back(state.T_world_body * scans.front().pose.inverse() * scan.pose);
   return path;
 }
 
 /// The body's poses at all scans: the predicted path between nodes, its end error spread evenly in time.
-std::vector<SE3> poses_through(const std::vector<ScanPose>& scans, const std::vector<std::size_t>& nodes,
+std::vector<SE3> poses_through(const ScanPoses& scans, const std::vector<std::size_t>& nodes,
                                const std::vector<InertialState>& states,
                                const std::vector<ImuSample>& samples, const ImuNoiseParams& noise) {
   std::vector<SE3> poses{states.front().T_world_body};
   for (std::size_t n = 1; n < nodes.size(); ++n) {
-    const std::span<const ScanPose> span(scans.data() + nodes[n - 1], nodes[n] - nodes[n - 1] + 1);
+    std::vector<StampedPose<SE3>> span;
+    for (std::size_t k = nodes[n - 1]; k <= nodes[n]; ++k)
+      span.push_back({scans[k].stamp, scans[k].T_start_body});
     const std::vector<SE3> path = path_from(states[n - 1], span, samples, noise);
     const SE3::Tangent missing = (path.back().inverse() * states[n].T_world_body).log();
     const double duration_s = seconds_between(span.front().stamp, span.back().stamp);
@@ -69,8 +70,7 @@ std::vector<SE3> poses_through(const std::vector<ScanPose>& scans, const std::ve
 }
 
 /// Nothing if gravity cannot be estimated or the smoother refuses.
-std::optional<InertialOdometry> smooth_scans(const std::vector<ScanPose>& scans,
-                                             const std::vector<ImuSample>& samples,
+std::optional<InertialOdometry> smooth_scans(const ScanPoses& scans, const std::vector<ImuSample>& samples,
                                              const InertialParams& params) {
   const auto aligned = align_gravity(trajectory_of(scans), samples, params.noise, params.alignment);
   if (!aligned) return std::nullopt;

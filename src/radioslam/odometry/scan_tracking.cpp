@@ -51,10 +51,11 @@ double max_scan_step_s(const ScanTrajectory& track, const ScanStageParams& param
 }
 
 /// The scans at times that the recorded odometry covers; these are contiguous.
-Trajectory<SE3> scans_covered_by(const Trajectory<SE3>& odometry, const std::vector<ScanPose>& scans) {
+Trajectory<SE3> scans_covered_by(const Trajectory<SE3>& odometry, const ScanPoses& scans,
+                                 const SE3& T_start_scans) {
   OdometryRows rows;
   for (const ScanPose& scan : scans)
-    if (odometry.covers(scan.stamp)) rows.push_back({scan.stamp, scan.T_start_body});
+    if (odometry.covers(scan.stamp)) rows.push_back({scan.stamp, T_start_scans * scan.T_start_body});
   return Trajectory<SE3>(std::move(rows));
 }
 
@@ -73,8 +74,8 @@ std::vector<Stamp> stamps_in_gaps(const Trajectory<SE3>& scans, const Trajectory
 }
 
 /// Recorded samples in gaps between scans, deformed to join the scans on both sides.
-OdometryRows fill_gaps(const Robot& robot, const std::vector<ScanPose>& scans, double max_s) {
-  const Trajectory<SE3> ends = scans_covered_by(robot.odometry, scans);
+OdometryRows fill_gaps(const Robot& robot, const ScanPoses& scans, const SE3& T_start_scans, double max_s) {
+  const Trajectory<SE3> ends = scans_covered_by(robot.odometry, scans, T_start_scans);
   const std::vector<Stamp> stamps = stamps_in_gaps(ends, robot.odometry, max_s);
   if (stamps.empty()) return {};
   const ContinuousTrajectory<SE3> path(robot, {ends, {}});
@@ -98,7 +99,7 @@ struct OdometryBuilder {
   }
 
   /// Appends the scans after the first, which is already present, each preceded by its samples of `bridges`.
-  void add_scans(const std::vector<ScanPose>& scans, const OdometryRows& bridges) {
+  void add_scans(const ScanPoses& scans, const SE3& T_start_scans, const OdometryRows& bridges) {
     auto bridge = bridges.begin();
     for (std::size_t k = 1; k < scans.size(); ++k) {
       const auto covariance_per_s =
@@ -108,14 +109,14 @@ struct OdometryBuilder {
         rows.push_back(row);
       };
       for (; bridge != bridges.end() && bridge->stamp < scans[k].stamp; ++bridge) add(*bridge);
-      add({scans[k].stamp, scans[k].T_start_body});
+      add({scans[k].stamp, T_start_scans * scans[k].T_start_body});
     }
   }
 };
 
 }  // namespace
 
-ScanKeyframes extract_keyframes(ScanTrajectory& track, const ScannerTraits& traits) {
+ScanKeyframes extract_keyframes(const ScanTrajectory& track, const ScannerTraits& traits) {
   ScanKeyframes result;
   result.nominal_inlier_ratio = track.nominal_inlier_ratio;
   result.spacing_m = traits.spacing_m;
@@ -130,7 +131,7 @@ ScanKeyframes extract_keyframes(ScanTrajectory& track, const ScannerTraits& trai
                                     track.poses[k].covariance};
     result.step_covariances.push_back(step.covariance);
   }
-  result.clouds = std::move(track.clouds);
+  result.clouds = track.clouds;
   return result;
 }
 
@@ -143,21 +144,23 @@ std::size_t unreachable_samples(const Trajectory<SE3>& recorded, const ScanTraje
   return static_cast<std::size_t>(std::count_if(recorded.begin(), recorded.end(), is_out_of_reach));
 }
 
-MeasuredOdometry odometry_from_scans(const Robot& robot, ScanTrajectory& track,
+MeasuredOdometry odometry_from_scans(const Robot& robot, const ScanTrajectory& track,
                                      const ScanStageParams& params) {
   constexpr Stamp kEver{std::numeric_limits<std::int64_t>::max()},
       kNever{std::numeric_limits<std::int64_t>::min()};
   const SE3 T_start_scans = start_of_scans(robot.odometry, track);
-  for (ScanPose& pose : track.poses) pose.T_start_body = T_start_scans * pose.T_start_body;
-  const ScanPose &first = track.poses.front(), &last = track.poses.back();
+  const auto end_of = [&](const ScanPose& scan) {
+    return StampedPose<SE3>{scan.stamp, T_start_scans * scan.T_start_body};
+  };
+  const StampedPose<SE3> first = end_of(track.poses.front()), last = end_of(track.poses.back());
   OdometryNoise stated = robot.odometry_noise;
   stated.steps.clear();
   OdometryBuilder by;
-  by.extend(extended_by_odometry(robot.odometry, kNever, first.stamp, first.stamp, first.T_start_body),
-            stated);
-  by.extend({{first.stamp, first.T_start_body}}, stated);
-  by.add_scans(track.poses, fill_gaps(robot, track.poses, max_scan_step_s(track, params)));
-  by.extend(extended_by_odometry(robot.odometry, last.stamp, kEver, last.stamp, last.T_start_body), stated);
+  by.extend(extended_by_odometry(robot.odometry, kNever, first.stamp, first.stamp, first.pose), stated);
+  by.extend({first}, stated);
+  by.add_scans(track.poses, T_start_scans,
+               fill_gaps(robot, track.poses, T_start_scans, max_scan_step_s(track, params)));
+  by.extend(extended_by_odometry(robot.odometry, last.stamp, kEver, last.stamp, last.pose), stated);
   return {Trajectory<SE3>(std::move(by.rows)), {0, 0, 0, 0, 0, 0, std::move(by.steps)}};
 }
 

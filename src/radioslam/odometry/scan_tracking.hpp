@@ -26,7 +26,7 @@
 namespace radioslam {
 
 struct ScanTrajectory {
-  std::vector<ScanPose> poses;  ///< of the registered scans, without their clouds
+  ScanPoses poses;  ///< of the registered scans, without their clouds
   std::vector<std::size_t> keyframes;
   std::vector<StoredCloud> clouds;  ///< of the keyframes
   std::map<ScanStatus, std::size_t> status_counts;
@@ -35,8 +35,8 @@ struct ScanTrajectory {
   bool is_level = false;  ///< roll and pitch are aligned with gravity
 };
 
-/// The keyframes for loop closing; moves the clouds out of `track`.
-ScanKeyframes extract_keyframes(ScanTrajectory& track, const ScannerTraits& traits);
+/// The keyframes for loop closing.
+ScanKeyframes extract_keyframes(const ScanTrajectory& track, const ScannerTraits& traits);
 
 // Odometry from the poses of scans, with recorded odometry where there are no scans.
 //
@@ -59,8 +59,8 @@ struct MeasuredOdometry {
 /// Number of recorded samples that odometry_from_scans would drop.
 std::size_t unreachable_samples(const Trajectory<SE3>& recorded, const ScanTrajectory& track);
 
-/// Moves `track`, which has at least one pose, into the frame of the robot's recorded odometry.
-MeasuredOdometry odometry_from_scans(const Robot& robot, ScanTrajectory& track,
+/// `track` has at least one pose. The result is in the frame of the robot's recorded odometry.
+MeasuredOdometry odometry_from_scans(const Robot& robot, const ScanTrajectory& track,
                                      const ScanStageParams& params);
 
 }  // namespace radioslam
