@@ -3,6 +3,8 @@
 #   test    scripts/test.sh --all: release and sanitizer builds, all tests, two seconds of every fuzzer
 #   slow    with sanitizers, the tests that simulate for long
 #   fuzz    the fuzzers from random seeds, each for the same share of the part's time
+#   threads tests of agents, their transport and page, with the thread sanitizer
+#   soak    a team at ten times its mission's speed, whose memory must not grow once the robots stand
 #   clang   an optimized clang build of everything, and its tests
 #   sweep   trajectory errors of car parks over ten seeds
 #   tidy    clang-format and clang-tidy, sources changed last first
@@ -16,8 +18,8 @@ set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$0")/.."
 
-parts=(test slow fuzz clang sweep tidy bench)
-declare -A share=([test]=1000 [slow]=4 [fuzz]=6 [clang]=5 [sweep]=2 [tidy]=5 [bench]=3)
+parts=(test slow fuzz threads soak clang sweep tidy bench)
+declare -A share=([test]=1000 [slow]=4 [fuzz]=6 [threads]=5 [soak]=3 [clang]=5 [sweep]=2 [tidy]=5 [bench]=3)
 least_s=20  # with less than this left, a part is not begun
 
 usage() { sed -n '/^#   scripts/s/^#   /usage: /p' "$0" >&2; exit 2; }
@@ -41,6 +43,24 @@ part_slow() {
 }
 
 part_fuzz() { scripts/fuzz.sh --within "$1"; }
+
+part_threads() {
+  local rooms=(team io_dds io_live agent) room
+  scripts/deps.sh test
+  cmake --preset tsan >/dev/null
+  cmake --build build/tsan --parallel "$jobs" --target "${rooms[@]/%/_tests}"
+  for room in "${rooms[@]}"; do
+    # Without random addresses, which older versions of the sanitizer do not have room for.
+    setarch --addr-no-randomize "$(find build/tsan -name "${room}_tests" -type f)" --gtest_brief=1
+  done
+}
+
+part_soak() {
+  scripts/deps.sh
+  cmake --preset release -DRADIOSLAM_GROUP_SOURCES=ON >/dev/null
+  cmake --build build/release --parallel "$jobs" --target radioslam_program radioslam_agent
+  scripts/team_load.py --soak "$(($1 / 90 + 1))"
+}
 
 part_clang() {
   scripts/deps.sh test
@@ -80,7 +100,7 @@ budget_s() {
   if [[ $part == test ]]; then echo "$left"; else echo $((left * share[$part] / total)); fi
 }
 
-export -f part_test part_slow part_fuzz part_clang part_sweep part_tidy part_bench
+export -f part_test part_slow part_fuzz part_threads part_soak part_clang part_sweep part_tidy part_bench
 end_s=$((60 * minutes))
 failed=0
 summary=()
@@ -88,7 +108,7 @@ for index in "${!parts[@]}"; do
   part=${parts[index]}
   seconds=$(budget_s $((end_s - SECONDS)) "$index")
   if ((seconds < least_s)); then
-    summary+=("$(printf '%-6s not reached' "$part")")
+    summary+=("$(printf '%-7s not reached' "$part")")
     continue
   fi
   printf '\n== %s: at most %d s (%d s so far)\n' "$part" "$seconds" "$SECONDS"
@@ -101,7 +121,7 @@ for index in "${!parts[@]}"; do
     124 | 137) result="cut short" ;;
     *) result="FAILED (exit status $status)" failed=1 ;;
   esac
-  summary+=("$(printf '%-6s %s after %d s' "$part" "$result" $((SECONDS - begin_s)))")
+  summary+=("$(printf '%-7s %s after %d s' "$part" "$result" $((SECONDS - begin_s)))")
 done
 
 printf '\n== nightly checks: %d s of %d\n' "$SECONDS" "$end_s"
