@@ -76,10 +76,10 @@ def loads(program, folder, sizes, seconds):
         mission, out = folder / f"team{size}", folder / f"team{size}-out"
         simulate(program, mission, size, speed_mps=4, path_length_m=4 * seconds)
         samples = live_through(program, str(mission), str(out), 1)
-        last = {robot: (at, used, used_mib) for at, robot, used, used_mib in samples}
+        last = {robot: used / at for at, robot, used, _ in samples}
         said = [json.load(open(out / "agents" / robot / "summary.json")) for robot in last]
         rows.append({"robots": size,
-                     "% of a core, mean agent": 100 * sum(used / at for at, used, _ in last.values()) / size,
+                     "% of a core, mean agent": 100 * sum(last.values()) / size,
                      "MiB, largest agent": max(of[3] for of in samples),
                      "kB a second sent, mean agent": sum(of["bytes_sent"] for of in said) / size / seconds / 1000})
         print(", ".join(f"{name}: {value:.4g}" for name, value in rows[-1].items()), flush=True)

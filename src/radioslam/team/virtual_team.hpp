@@ -71,11 +71,11 @@ struct VirtualTeamSetup {
   ErrorOf error_of = {};
 };
 
-/// Until every agent that runs knows all, or nothing more comes.
 /// What an agent knows now.
 KnownThen known_then(const Agent& agent, Stamp now, std::uint64_t said, const ErrorOf& error_of);
 std::map<std::string, std::map<std::string, std::size_t>> refused_by(const Agent& agent);
 
+/// Until every agent that runs knows all, or nothing more comes.
 TeamRun run_team(const std::vector<ScriptedRobot>& robots, const VirtualTeamSetup& setup,
                  const Progress& progress = {});
 
