@@ -30,8 +30,8 @@ Mission city() {
   return simulate_city(params, 3).mission;
 }
 
-/// A robot that scans a furnished room, with an IMU if asked to.
-Mission scanning_mission(int scans = 60) {
+/// A robot that scans a furnished room; its wheels, if it has any, count in a frame of their own.
+Mission scanning_mission(int scans = 60, bool has_wheels = false) {
   std::vector<SE3> poses;
   for (int k = 0; k < scans; ++k) {
     const double angle = 0.04 * k;
@@ -42,7 +42,14 @@ Mission scanning_mission(int scans = 60) {
   mission.dimension = 2;
   Robot& robot = mission.robots.emplace_back();
   robot.id = "a";
-  robot.lidar = log_of(drive_along(furnished_room(), planar_scanner(180), poses, 1));
+  const ScanDrive drive = drive_along(furnished_room(), planar_scanner(180), poses, 1);
+  robot.lidar = log_of(drive);
+  if (!has_wheels) return mission;
+  const SE3 T_wheels_room = pose_at(7, -5, 0, 2);
+  std::vector<StampedPose<SE3>> wheels;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    wheels.push_back({drive.stamps[k], T_wheels_room * poses[k]});
+  robot.odometry = Trajectory<SE3>(std::move(wheels));
   return mission;
 }
 
@@ -155,6 +162,21 @@ TEST(FrontEnd, IsCausal) {
       for (std::size_t k = 0; k < begun.poses.size(); ++k)
         EXPECT_EQ(begun.poses[k].T_start_body.translation(), whole.poses[k].T_start_body.translation());
     }
+  }
+}
+
+TEST(FrontEnd, NotesTheWheelsAtKeyframesOfScans) {
+  const Mission mission = scanning_mission(60, true);
+  CloudStore clouds;
+  FrontEnd front_end(mission, kSelf, sources_of(mission.robots[0]), {}, {}, clouds);
+  for (const Sample& sample : samples_of(mission)) front_end.add(sample);
+  front_end.finish();
+  ASSERT_GT(front_end.keyframes().size(), 2U);
+  for (const StampedPose<SE3>& keyframe : front_end.keyframes()) {
+    const auto noted = front_end.recorded_at_keyframes().find(keyframe.stamp);
+    ASSERT_NE(noted, front_end.recorded_at_keyframes().end());
+    const SE3 wheels = *mission.robots[0].odometry.at(keyframe.stamp);
+    EXPECT_LT((noted->second.inverse() * wheels).log().norm(), 1e-9);
   }
 }
 

@@ -40,11 +40,12 @@ std::vector<std::string> after() {
           encode(Record(FixRecord{{1, Stamp::from_seconds(11), SE3()}, {5, 6, 7}, 1}))};
 }
 
-LoggedMission continued(bool odometry_goes_on) {
+template <class Odometry>
+LoggedMission continued(const Odometry& odometry) {
   RobotLog log{"a", {}};
   const KnownLog said = before();
   for (const auto& [number, record] : said.records) log.records.push_back(record);
-  ResumedLog resumed(said, odometry_goes_on);
+  ResumedLog resumed(said, odometry);
   for (const std::string& record : after())
     if (auto more = resumed.continued(record)) log.records.push_back(*std::move(more));
   TeamLog team;
@@ -70,6 +71,41 @@ TEST(ResumedLog, DoesNotKnowTheMotionBetweenTwoOdometries) {
   const Trajectory<SE3>& odometry = logged.mission.robots[0].odometry;
   const auto a = odometry.at(Stamp::from_seconds(10)), b = odometry.at(Stamp::from_seconds(11));
   EXPECT_NEAR((a->inverse() * *b).translation().x(), 1, 1e-6);
+}
+
+/// Wheels that count 100 m more than the log says; the robot was at `last_s` when it last noted them.
+OdometryBesideScans wheels(double last_s, const RecordedAtKeyframes& after) {
+  OdometryNoise noise;
+  noise.sigma_xy_per_sqrt_m = 0.1;
+  return {{{Stamp::from_seconds(last_s), forward(102)}}, after, noise};
+}
+
+TEST(ResumedLog, FollowsTheWheelsBesideScans) {
+  const RecordedAtKeyframes after{{Stamp::from_seconds(10), forward(106)}};
+  const LoggedMission logged = continued(wheels(2, after));
+  EXPECT_TRUE(logged.notes.empty());
+  const Robot& robot = logged.mission.robots[0];
+  EXPECT_NEAR(robot.odometry.at(Stamp::from_seconds(10))->translation().x(), 6, 1e-4);
+  ASSERT_EQ(robot.odometry_noise.steps.size(), 1U);
+  const OdometryStepNoise& step = robot.odometry_noise.steps[0];
+  EXPECT_NEAR(step.covariance_per_s(0, 0) * seconds_between(step.begin, step.end), 4 * 0.01, 1e-4);
+}
+
+TEST(ResumedLog, DoesNotFollowWheelsOfAnotherKeyframe) {
+  const RecordedAtKeyframes after{{Stamp::from_seconds(10), forward(106)}},
+      later{{Stamp::from_seconds(11), forward(107)}};
+  EXPECT_EQ(continued(wheels(1, after)).notes.size(), 1U);
+  EXPECT_EQ(continued(wheels(2, later)).notes.size(), 1U);
+}
+
+TEST(ResumedLog, RecordedOdometryIsReadAsItWasKept) {
+  const SE3 pose({1, -2, 0.5}, Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())));
+  const RecordedAtKeyframes read = decode_recorded(encode_recorded({Stamp::from_seconds(7), pose}));
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read.begin()->first, Stamp::from_seconds(7));
+  EXPECT_LT((read.begin()->second.inverse() * pose).log().norm(), 1e-4);
+  EXPECT_TRUE(decode_recorded("").empty());
+  EXPECT_TRUE(decode_recorded(encode(Record(facts()))).empty());
 }
 
 }  // namespace

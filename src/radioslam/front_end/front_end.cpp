@@ -1,11 +1,14 @@
 #include "radioslam/front_end/front_end.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 namespace radioslam {
 namespace {
+
+constexpr std::size_t kMostRecorded = 4096;  // rows without a keyframe
 
 /// The robot with the noise that its log states: none where scans measure it.
 Robot of_log(const Robot& robot, bool follows_scans) {
@@ -72,6 +75,7 @@ std::optional<TrackedScans> FrontEnd::finish() {
     tracked = scans_.finish();
   }
   log_.finish();
+  note_recorded();
   return tracked;
 }
 
@@ -89,11 +93,13 @@ void FrontEnd::take(Sample sample) {
       [&](auto& of) {
         using Kind = std::decay_t<decltype(of)>;
         if constexpr (std::is_same_v<Kind, StampedPose<SE3>>) {
-          recorded_ = of;
-          if (follows_scans_)
+          if (follows_scans_) {
             scans_.add(of);
-          else
+            recorded_.push_back(of);
+            if (recorded_.size() > kMostRecorded) recorded_.pop_front();
+          } else {
             add_pose(of.stamp, of.pose, nullptr);
+          }
         } else if constexpr (std::is_same_v<Kind, ImuSample>) {
           if (follows_scans_) scans_.add(of);
         } else if constexpr (std::is_same_v<Kind, ScanSample>) {
@@ -128,11 +134,27 @@ void FrontEnd::add_pose_of(const ScanTrajectory& track, std::size_t k) {
   if (latest_) {
     const SE3 before = k > 0 ? track.poses[k - 1].T_start_body : scan.T_start_body;
     pose = latest_->pose * (before.inverse() * scan.T_start_body);
-  } else if (recorded_) {
-    pose = recorded_->pose;
+  } else if (!recorded_.empty()) {
+    pose = recorded_.back().pose;
   }
   if (std::binary_search(track.keyframes.begin(), track.keyframes.end(), k)) log_.add_keyframe(scan.stamp);
   add_pose(scan.stamp, pose, &scan.covariance);
+}
+
+/// At the keyframes that were said since the last call.
+void FrontEnd::note_recorded() {
+  const auto& said = log_.said();
+  for (; noted_ < said.size(); ++noted_) {
+    const Stamp at = said[noted_].stamp;
+    const auto after =
+        std::find_if(recorded_.begin(), recorded_.end(), [&](const auto& row) { return at <= row.stamp; });
+    if (after == recorded_.end() || (after == recorded_.begin() && at < after->stamp)) continue;
+    const Trajectory<SE3> around(at == after->stamp ? std::vector{*after}
+                                                    : std::vector{*std::prev(after), *after});
+    recorded_at_keyframes_[at] = *around.at(at);
+  }
+  if (said.empty()) return;
+  while (recorded_.size() > 1 && recorded_[1].stamp <= said.back().stamp) recorded_.pop_front();
 }
 
 void FrontEnd::add_pose(Stamp stamp, const SE3& pose, const SE3::Jacobian* covariance) {
@@ -145,6 +167,7 @@ void FrontEnd::add_pose(Stamp stamp, const SE3& pose, const SE3::Jacobian* covar
   poses_.push_back({stamp, pose});
   log_.add(*latest_);
   if (!log_.said().empty()) history_.forget_before(log_.said().back().stamp);
+  if (follows_scans_) note_recorded();
 }
 
 }  // namespace radioslam

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/odometry/scan_front_end.hpp"
 #include "radioslam/records/log_builder.hpp"
+#include "radioslam/records/resumed_log.hpp"
 
 namespace radioslam {
 
@@ -73,6 +75,8 @@ class FrontEnd {
   /// In the frame of the odometry.
   std::optional<StampedPose<SE3>> latest() const { return latest_; }
   const std::vector<StampedPose<SE3>>& keyframes() const { return log_.said(); }
+  /// Of a robot that follows its scans, as far as odometry is recorded beside them.
+  const RecordedAtKeyframes& recorded_at_keyframes() const { return recorded_at_keyframes_; }
   /// Whether its poses are those of scans, and these.
   bool follows_scans() const { return follows_scans_; }
   const ScanFrontEnd& scans() const { return scans_; }
@@ -86,6 +90,7 @@ class FrontEnd {
   void follow_scans();
   void add_pose(Stamp stamp, const SE3& pose, const SE3::Jacobian* covariance);
   void add_pose_of(const ScanTrajectory& track, std::size_t k);
+  void note_recorded();
 
   RobotIndex self_;
   ScanParams params_;
@@ -97,7 +102,10 @@ class FrontEnd {
   SensorHistory history_;  ///< its odometry: the robot's, as it is said
   ScanFrontEnd scans_;
   LogBuilder log_;
-  std::optional<StampedPose<SE3>> latest_, recorded_;  ///< the latter: the last row of recorded odometry
+  std::optional<StampedPose<SE3>> latest_;
+  std::deque<StampedPose<SE3>> recorded_;  ///< rows of odometry beside scans, since the last keyframe
+  std::size_t noted_ = 0;                  ///< keyframes at which they were looked up
+  RecordedAtKeyframes recorded_at_keyframes_;
   std::vector<OnlinePose> poses_;
   std::vector<FrontEndEvent> late_events_;
   std::array<bool, std::variant_size_v<Sample>> is_late_said_{};

@@ -64,6 +64,7 @@ ReplayedRobot replay(const Mission& mission, RobotIndex self, const ReplayWindow
   if (!window.is_finished) now = window.end;
   replayed.tracked = front_end.finish();
   replayed.follows_scans = front_end.follows_scans();
+  replayed.recorded = front_end.recorded_at_keyframes();
   if (window.is_finished) take(begin);
   number_keyframes(front_end, replayed.poses);
   if (window.is_finished && replayed.tracked) {

@@ -28,7 +28,8 @@ struct ReplayedRobot {
   RobotLog log;              ///< with amendments
   std::vector<Stamp> known;  ///< when each of its records was said
   std::optional<TrackedScans> tracked;
-  bool follows_scans = false;  ///< its poses are those of scans
+  bool follows_scans = false;    ///< its poses are those of scans
+  RecordedAtKeyframes recorded;  ///< of such a robot
   std::size_t left_out = 0;
 };
 

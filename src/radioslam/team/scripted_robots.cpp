@@ -12,6 +12,8 @@ namespace {
 ScriptedRun scripted(Stamp begin, const ReplayedRobot& replayed) {
   ScriptedRun run;
   run.begin = begin;
+  run.follows_scans = replayed.follows_scans;
+  run.recorded = replayed.recorded;
   for (std::size_t k = 0; k < replayed.known.size(); ++k)
     run.records.emplace_back(replayed.known[k], replayed.log.records[k]);
   const ScansSoFar scans(replayed);
@@ -50,6 +52,7 @@ std::vector<ScriptedRobot> scripted_robots(const Mission& mission, const RunPara
     for (std::size_t r = first; r < last; ++r) {
       ScriptedRobot& robot = robots[r];
       robot.name = mission.robots[r].id;
+      robot.noise = mission.robots[r].odometry_noise;
       const auto run = [&](const ReplayWindow& window) {
         return replay(mission, RobotIndex(r), window, params.scans, params.keyframe, clouds);
       };
@@ -62,9 +65,7 @@ std::vector<ScriptedRobot> scripted_robots(const Mission& mission, const RunPara
       robot.runs.push_back(scripted(begin, run({begin, kill.at, false})));
       robot.runs.back().killed = kill.at;
       if (!kill.back) continue;
-      const ReplayedRobot again = run({*kill.back, end, true});
-      robot.runs.push_back(scripted(*kill.back, again));
-      robot.runs.back().odometry_goes_on = !again.follows_scans;
+      robot.runs.push_back(scripted(*kill.back, run({*kill.back, end, true})));
     }
   });
   return robots;

@@ -11,6 +11,7 @@
 #include "radioslam/live/scans_so_far.hpp"
 #include "radioslam/mission/mission.hpp"
 #include "radioslam/pipeline/params.hpp"
+#include "radioslam/records/resumed_log.hpp"
 
 namespace radioslam {
 
@@ -21,10 +22,12 @@ struct ScriptedRun {
   std::vector<std::pair<Stamp, std::string>> records;      ///< encoded, when they are said
   std::vector<std::pair<Stamp, StoredCloud>> clouds = {};  ///< of its keyframes
   ScannerFacts scanner = {};
-  bool odometry_goes_on = false;  ///< of the run before
+  bool follows_scans = false;
+  RecordedAtKeyframes recorded = {};
 };
 struct ScriptedRobot {
   std::string name;
+  OdometryNoise noise = {};
   std::vector<ScriptedRun> runs;
 };
 

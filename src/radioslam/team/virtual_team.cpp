@@ -178,8 +178,12 @@ class VirtualTeam {
     host.resumed.reset();
     if (host.run == 0) return;
     run_.events.push_back({host.script->name, {now, "is started again"}});
-    host.resumed.emplace(host.agent->logs().log(host.script->name),
-                         host.script->runs[host.run].odometry_goes_on);
+    const KnownLog& log = host.agent->logs().log(host.script->name);
+    const ScriptedRun &before = host.script->runs[host.run - 1], &again = host.script->runs[host.run];
+    if (again.follows_scans)
+      host.resumed.emplace(log, OdometryBesideScans{before.recorded, again.recorded, host.script->noise});
+    else
+      host.resumed.emplace(log, true);
   }
 
   void act(std::size_t k, Stamp now) {

@@ -18,6 +18,8 @@ constexpr std::chrono::seconds kLeastQuiet{3}, kLeastSettle{30};  // the same
 constexpr std::size_t kMostCounted = kMaxTeam * std::size(kAgentMessageKinds);  // senders and kinds
 constexpr milliseconds kLastWords{1000};                                        // to send what is left
 
+constexpr const char* kRecorded = "recorded odometry";  // in the journal
+
 SteadyClock::duration at_least(double mission_s, double rate, milliseconds least) {
   return std::max<SteadyClock::duration>(least, std::chrono::duration_cast<SteadyClock::duration>(
                                                     std::chrono::duration<double>(mission_s / rate)));
@@ -25,9 +27,11 @@ SteadyClock::duration at_least(double mission_s, double rate, milliseconds least
 
 }  // namespace
 
-std::optional<KnownLog> log_before(const AgentMemory& memory, const std::string& robot) {
-  for (const auto& [name, log] : memory.logs)
-    if (name == robot && log.life == memory.life && !log.records.empty()) return log;
+std::optional<LogBefore> log_before(const AgentStore& store, const std::string& robot) {
+  AgentMemory memory = store.memory();
+  for (auto& [name, log] : memory.logs)
+    if (name == robot && log.life == memory.life && !log.records.empty())
+      return LogBefore{std::move(log), decode_recorded(store.state(kRecorded).value_or(""))};
   return std::nullopt;
 }
 
@@ -37,7 +41,7 @@ AgentProcess::AgentProcess(const AgentProcessSetup& setup, AgentStore& store, co
       store_(store),
       clock_(clock),
       name_(setup.robot),
-      before_(log_before(store.memory(), name_)),
+      before_(log_before(store, name_)),
       agent_(name_, setup.dimension, setup.run, setup.agent, store.memory()),
       domain_(domain),
       channel_(domain_, name_, [this](TeamMessage message) { inbox_.hear(std::move(message)); }),
@@ -108,6 +112,7 @@ void AgentProcess::hear(const TeamMessage& message, Stamp now) {
 void AgentProcess::take(FrontEndNews news, Stamp now) {
   if (news.scanner) agent_.set_scanner(*news.scanner);
   for (std::string& record : news.records) agent_.say(std::move(record));
+  if (!news.recorded.empty()) recorded_ = std::move(news.recorded);
   for (auto& [stamp, cloud] : news.clouds) agent_.add_cloud(stamp, std::move(cloud));
   for (FrontEndEvent& event : news.events) say({event.stamp, std::move(event.what)});
   for (const BodyPose& pose : news.poses) setup_.publisher->add(pose, agent_.frame_of(name_));
@@ -139,7 +144,9 @@ void AgentProcess::commit() {
   committed_ = clock_.now();
   committed_at_ = SteadyClock::now();
   try {
-    if (const JournalChange change = agent_.change(); !change.empty()) store_.commit(change);
+    JournalChange change = agent_.change();
+    if (!recorded_.empty()) change.state[kRecorded] = std::exchange(recorded_, {});
+    if (!change.empty()) store_.commit(change);
     agent_.note_kept();
   } catch (const InputError& error) {
     say_once(true, std::string("keeps nothing more: ") + error.what(), *committed_);

@@ -39,7 +39,7 @@ struct AgentProcessSetup {
 };
 
 /// What the robot has said before; nothing if its program was never started.
-std::optional<KnownLog> log_before(const AgentMemory& memory, const std::string& robot);
+std::optional<LogBefore> log_before(const AgentStore& store, const std::string& robot);
 
 class AgentProcess {
  public:
@@ -71,7 +71,8 @@ class AgentProcess {
   AgentStore& store_;
   const MissionClock& clock_;
   std::string name_;
-  std::optional<KnownLog> before_;
+  std::optional<LogBefore> before_;
+  std::string recorded_;  ///< not kept yet
   Agent agent_;
   Inbox inbox_;
   DdsDomain& domain_;

@@ -59,8 +59,7 @@ Stamp stamp_of_option(const std::string& text) {
 
 /// When the mission began: as told, as the journal has it, or now.
 Stamp start_of(const AgentArguments& arguments, AgentStore& store) {
-  const auto* journal = dynamic_cast<const JournalStore*>(&store);
-  const auto kept = journal ? journal->state(kStart) : std::nullopt;
+  const auto kept = store.state(kStart);
   const Stamp start = !arguments.start.empty() ? stamp_of_option(arguments.start)
                       : kept                   ? Stamp{std::stoll(*kept)}
                                                : time_of_host();
@@ -153,7 +152,7 @@ void live_through_recording(const Life& life) {
   setup.error_of = [&](const std::vector<EstimatedTrajectory>& team) {
     return team_error_m(team, given.truth, mission.dimension);
   };
-  RecordedSource source(mission, self, log_before(life.store.memory(), arguments.robot).has_value(), clock);
+  RecordedSource source(mission, self, log_before(life.store, arguments.robot).has_value(), clock);
   live(life, std::move(setup), given, clock, source, topics_of(arguments.robot, arguments.ros));
 }
 

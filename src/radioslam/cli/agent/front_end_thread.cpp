@@ -7,8 +7,8 @@
 namespace radioslam::cli {
 
 FrontEndThread::FrontEndThread(SampleSource& source, const RunParams& params,
-                               const std::optional<KnownLog>& before, const MissionClock& clock, Inbox& inbox,
-                               Poses poses)
+                               const std::optional<LogBefore>& before, const MissionClock& clock,
+                               Inbox& inbox, Poses poses)
     : source_(source),
       params_(params),
       before_(before),
@@ -39,7 +39,7 @@ void FrontEndThread::run() {
   if (const auto sources = source_.begin()) {
     front_end_ = std::make_unique<FrontEnd>(source_.names(), source_.self(), *sources, params_.scans,
                                             params_.keyframe, clouds_);
-    if (before_) resumed_.emplace(*before_, source_.odometry_goes_on() && !front_end_->follows_scans());
+    if (before_) resume();
     while (auto sample = source_.next()) {
       front_end_->add(*std::move(sample));
       report();
@@ -49,6 +49,15 @@ void FrontEndThread::run() {
   FrontEndNews last;
   last.is_over = true;
   inbox_.push(std::move(last));
+}
+
+void FrontEndThread::resume() {
+  if (source_.odometry_goes_on() && front_end_->follows_scans())
+    resumed_.emplace(before_->log,
+                     OdometryBesideScans{before_->recorded, front_end_->recorded_at_keyframes(),
+                                         source_.names().robots[source_.self().index()].odometry_noise});
+  else
+    resumed_.emplace(before_->log, source_.odometry_goes_on());
 }
 
 void FrontEndThread::finish() {
@@ -77,6 +86,16 @@ void FrontEndThread::add_clouds(const ScanTrajectory& track, std::size_t until, 
   }
 }
 
+/// Of the last keyframe that was said.
+void FrontEndThread::add_recorded(FrontEndNews& news) {
+  const auto& said = front_end_->keyframes();
+  if (said.empty() || reported_recorded_ == said.back().stamp) return;
+  const auto recorded = front_end_->recorded_at_keyframes().find(said.back().stamp);
+  if (recorded == front_end_->recorded_at_keyframes().end()) return;
+  reported_recorded_ = recorded->first;
+  news.recorded = encode_recorded(*recorded);
+}
+
 void FrontEndThread::report(FrontEndNews news) {
   for (std::string& record : front_end_->take_records()) {
     if (!resumed_)
@@ -84,6 +103,7 @@ void FrontEndThread::report(FrontEndNews news) {
     else if (auto continued = resumed_->continued(record))
       news.records.push_back(*std::move(continued));
   }
+  add_recorded(news);
   for (const OnlinePose& pose : front_end_->take_poses())
     if (poses_ == Poses::kReported) news.poses.push_back(source_.published(pose));
   const ScanTrajectory* track = is_finished_ ? nullptr : front_end_->scans().track();

@@ -13,12 +13,18 @@
 
 namespace radioslam::cli {
 
+/// What a robot's journal has of the time before its program was started again.
+struct LogBefore {
+  KnownLog log;
+  RecordedAtKeyframes recorded;
+};
+
 class FrontEndThread {
  public:
   enum class Poses { kKept, kReported };  ///< the latter: all go into the inbox, to be published
 
   /// `before`: what the robot has said when its program ran before. Keeps references.
-  FrontEndThread(SampleSource& source, const RunParams& params, const std::optional<KnownLog>& before,
+  FrontEndThread(SampleSource& source, const RunParams& params, const std::optional<LogBefore>& before,
                  const MissionClock& clock, Inbox& inbox, Poses poses);
   ~FrontEndThread();
   FrontEndThread(const FrontEndThread&) = delete;
@@ -30,12 +36,14 @@ class FrontEndThread {
  private:
   void run();
   void finish();
+  void resume();
   void report(FrontEndNews news = {});
+  void add_recorded(FrontEndNews& news);
   void add_clouds(const ScanTrajectory& track, std::size_t until, FrontEndNews& news);
 
   SampleSource& source_;
   const RunParams& params_;
-  const std::optional<KnownLog>& before_;
+  const std::optional<LogBefore>& before_;
   const MissionClock& clock_;
   Inbox& inbox_;
   Poses poses_;
@@ -43,6 +51,7 @@ class FrontEndThread {
   std::unique_ptr<FrontEnd> front_end_;  ///< once it is known what the robot measures
   std::optional<ResumedLog> resumed_;
   std::optional<Stamp> reported_cloud_;  ///< the last one's keyframe
+  std::optional<Stamp> reported_recorded_;
   std::size_t reported_events_ = 0;
   bool is_finished_ = false;
   std::thread thread_;  // last, as it uses the others

@@ -34,6 +34,8 @@ struct BodyPose {
 /// What the front end has said since the last time.
 struct FrontEndNews {
   std::vector<std::string> records = {};
+  std::string recorded =
+      {};  ///< odometry at the last of their keyframes, if it follows scans: encode_recorded
   std::vector<std::pair<Stamp, StoredCloud>> clouds = {};
   std::optional<ScannerFacts> scanner = {};
   std::vector<FrontEndEvent> events = {};

@@ -19,7 +19,7 @@ class JournalStore : public AgentStore {
 
   AgentMemory memory() const override { return {journal_.life(), journal_.logs(), next_life_}; }
   void commit(const JournalChange& change) override { journal_.commit(change); }
-  std::optional<std::string> state(std::string_view key) const { return journal_.state(key); }
+  std::optional<std::string> state(std::string_view key) const override { return journal_.state(key); }
 
  private:
   Journal journal_;
