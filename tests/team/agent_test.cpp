@@ -36,6 +36,16 @@ void drive(Agent& of, std::uint32_t number) {
   of.say(encode(Record(record)));
 }
 
+ScanPyramid wall() {
+  ScanPyramid scan;
+  scan.median_range_m = 3;
+  for (int k = 0; k < 20; ++k) {
+    Surfel& surfel = scan.all.emplace_back();
+    surfel.position = Eigen::Vector3f(3, 0.25F * static_cast<float>(k), 0);
+  }
+  return scan;
+}
+
 /// The agents' messages reach each other unless they are lost; a tenth of a second.
 struct Air {
   std::vector<Agent*> agents;
@@ -181,6 +191,36 @@ TEST(Agent, AnOlderCopyOfItsJournalBeginsAnotherLife) {
   air.run(5);
   EXPECT_EQ(again.logs().extents().at("a").life, 7U);  // once
   EXPECT_EQ(again.peers().at("liar").refused.size(), 1U);
+}
+
+TEST(Agent, RemembersItsCloudsAndClosuresWhenItIsStartedAgain) {
+  const auto a = agent("a");
+  for (std::uint32_t k = 0; k < 4; ++k) drive(*a, k);
+  ClosureRecord closure;
+  closure.at = {3, at(3), SE3()};
+  closure.other = "b";
+  closure.stamp_other = at(1);
+  a->say(encode(Record(closure)));
+  a->set_scanner({ScannerKind::kPlanar, 0.75, 0.125});
+  CloudStore clouds;
+  a->add_cloud(at(2), clouds.add(wall()));
+  const JournalChange change = a->change();
+  ASSERT_EQ(change.state.size(), 1U);
+  a->note_kept();
+  EXPECT_TRUE(a->change().state.empty());
+
+  const auto state = [&](const std::string& key) {
+    const auto found = change.state.find(key);
+    return found == change.state.end() ? std::nullopt : std::optional(found->second);
+  };
+  Agent again("a", 2, params(), {}, AgentMemory{1, {{"a", a->logs().log("a")}}, 7, state});
+  EXPECT_EQ(again.clouds(), 1U);
+  const auto before = a->scans().cloud(at(2)), after = again.scans().cloud(at(2));
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(before->packed, after->packed);
+  EXPECT_EQ(after->scanner.kind, ScannerKind::kPlanar);
+  EXPECT_EQ(after->scanner.spacing_m, 0.125);
+  EXPECT_TRUE(again.change().empty());  // nothing is kept twice
 }
 
 TEST(Agent, OneThatDoesNotSolveTakesAnothersSolution) {

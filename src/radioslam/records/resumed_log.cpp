@@ -1,6 +1,7 @@
 #include "radioslam/records/resumed_log.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -29,7 +30,10 @@ ResumedLog::ResumedLog(const KnownLog& before, bool odometry_goes_on) : odometry
     if (!record) continue;
     if (const auto* keyframe = std::get_if<KeyframeRecord>(&*record)) {
       keyframes_ = keyframe->number + 1;
+      if (last_) add_usual(*keyframe);
       last_ = {keyframe->stamp, (last_ ? last_->pose : SE3()) * keyframe->T_before_this};
+    } else if (const auto* facts = std::get_if<FactsRecord>(&*record)) {
+      noise_ = facts->noise;
     } else if (const auto* heard = std::get_if<AccessPointRecord>(&*record)) {
       access_points_ = std::max(access_points_, heard->number + 1);
     }
@@ -68,25 +72,53 @@ std::optional<std::string> ResumedLog::continued(const std::string& record) {
   return encode(*decoded);
 }
 
+void ResumedLog::add_usual(const KeyframeRecord& keyframe) {
+  const SE3::Tangent step = keyframe.T_before_this.log();
+  travelled_m_ += step.head<3>().norm();
+  turned_rad_ += step.tail<3>().norm();
+  followed_s_ += seconds_between(last_->stamp, keyframe.stamp);
+}
+
 /// The new front end's first keyframe with the log's last one.
 void ResumedLog::connect(KeyframeRecord& first) {
   if (odometry_goes_on_) {
-    first.T_before_this = last_->pose.inverse() * first.T_before_this;
-    first.covariance.reset();
-  } else if (!connect_by_odometry(first)) {
-    ++keyframes_;
+    const auto edge = crossing(last_->pose.inverse() * first.T_before_this, first.stamp, noise_);
+    first.T_before_this = edge.T_i_j;
+    first.covariance = edge.covariance;  // the constant drift is estimated
+    return;
   }
+  if (odometry_) {
+    const auto before = odometry_->before.find(last_->stamp);
+    const auto after = odometry_->after.find(first.stamp);
+    if (before != odometry_->before.end() && after != odometry_->after.end()) {
+      const auto edge = crossing(before->second.inverse() * after->second, first.stamp, odometry_->noise);
+      first.T_before_this = edge.T_i_j;
+      first.covariance = with_drift(edge, odometry_->noise).covariance;
+      return;
+    }
+  }
+  ++keyframes_;
 }
 
-bool ResumedLog::connect_by_odometry(KeyframeRecord& first) const {
-  if (!odometry_) return false;
-  const auto before = odometry_->before.find(last_->stamp), after = odometry_->after.find(first.stamp);
-  if (before == odometry_->before.end() || after == odometry_->after.end()) return false;
+/// Its ends are known. In between the robot has gone on as it usually does, or straight if that is farther.
+OdometryEdge<SE3> ResumedLog::crossing(const SE3& motion, Stamp end, OdometryNoise noise) const {
+  constexpr double kPiece_m = 1, kMostPieces = 1000;
+  const SE3::Tangent whole = motion.log();
+  const double dt_s = seconds_between(last_->stamp, end), usual = followed_s_ > 0 ? dt_s / followed_s_ : 0;
+  const double straight_m = std::max(motion.translation().norm(), 1e-3);
+  const double way = std::max(1.0, usual * travelled_m_ / straight_m);
+  const double unseen_rad = std::max(0.0, usual * turned_rad_ - whole.tail<3>().norm());
+  noise.sigma_xy_per_sqrt_m *= std::sqrt(way);
+  noise.sigma_z_per_sqrt_m *= std::sqrt(way);
+  noise.sigma_yaw_per_sqrt_m_rad = std::sqrt(std::pow(noise.sigma_yaw_per_sqrt_m_rad, 2) * way +
+                                             std::pow(noise.sigma_yaw_per_rad, 2) * unseen_rad / straight_m);
+  const auto pieces = static_cast<int>(std::clamp(std::ceil(straight_m / kPiece_m), 1.0, kMostPieces));
   OdometryEdge<SE3> edge;
-  append_sample(edge, {last_->stamp, before->second}, {first.stamp, after->second}, odometry_->noise);
-  first.T_before_this = edge.T_i_j;
-  first.covariance = with_drift(edge, odometry_->noise).covariance;
-  return true;
+  for (int k = 0; k < pieces; ++k) {
+    const auto at = [&](int n) { return SE3::exp(whole * (static_cast<double>(n) / pieces)); };
+    append_sample(edge, {last_->stamp, at(k)}, {end, at(k + 1)}, noise);
+  }
+  return edge;
 }
 
 }  // namespace radioslam

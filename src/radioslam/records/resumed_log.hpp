@@ -12,6 +12,7 @@
 
 #include "radioslam/geometry/se3.hpp"
 #include "radioslam/mission/mission.hpp"
+#include "radioslam/mission/odometry_edge.hpp"
 #include "radioslam/records/record.hpp"
 #include "radioslam/records/team_log.hpp"
 
@@ -43,13 +44,16 @@ class ResumedLog {
   std::optional<std::string> continued(const std::string& record);
 
  private:
+  void add_usual(const KeyframeRecord& keyframe);
   void connect(KeyframeRecord& first);
-  bool connect_by_odometry(KeyframeRecord& first) const;
+  OdometryEdge<SE3> crossing(const SE3& motion, Stamp end, OdometryNoise noise) const;
 
   bool odometry_goes_on_;
   std::optional<OdometryBesideScans> odometry_;
-  std::uint32_t keyframes_ = 0, access_points_ = 0;  ///< numbers that are taken
-  std::optional<StampedPose<SE3>> last_;             ///< keyframe, by the odometry as it was said
+  std::uint32_t keyframes_ = 0, access_points_ = 0;           ///< numbers that are taken
+  std::optional<StampedPose<SE3>> last_;                      ///< keyframe, by the odometry as it was said
+  OdometryNoise noise_;                                       ///< as the log states it
+  double travelled_m_ = 0, turned_rad_ = 0, followed_s_ = 0;  ///< by the log
 };
 
 }  // namespace radioslam

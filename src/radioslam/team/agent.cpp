@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "radioslam/records/record_codec.hpp"
+
 namespace radioslam {
 namespace {
 
@@ -9,6 +11,9 @@ constexpr std::size_t kMostRecordBytes = 8000;  // of a message
 constexpr std::size_t kMostClouds = 512;        // that a peer waits for
 constexpr double kDigest_s = 1, kOwn_s = 1, kAsk_s = 0.5;
 constexpr double kDigestPeers = 5;  // more of them are told less often
+
+/// In the journal.
+std::string cloud_key(Stamp keyframe) { return "cloud " + std::to_string(keyframe.ns); }
 
 }  // namespace
 
@@ -22,12 +27,38 @@ Agent::Agent(std::string name, int dimension, const RunParams& run, const AgentP
       logs_(name_, dimension, memory.life, memory.logs),
       scans_(name_) {
   restart_estimate();
+  remember_scans(memory);
 }
 
 void Agent::say(std::string record) { logs_.say(std::move(record)); }
 
+/// A cloud is kept as the message that others would get.
+JournalChange Agent::change() const {
+  JournalChange change = logs_.change();
+  for (const Stamp keyframe : scans_.not_kept())
+    if (const auto cloud = scans_.cloud(keyframe)) change.state[cloud_key(keyframe)] = encode(name_, *cloud);
+  return change;
+}
+
+/// The clouds of its keyframes, and the closures that it has said.
+void Agent::remember_scans(const AgentMemory& memory) {
+  if (!memory.state) return;
+  for (const auto& [number, bytes] : logs_.log(name_).records) {
+    const auto record = decode_record(bytes);
+    if (!record) continue;
+    if (const auto* closure = std::get_if<ClosureRecord>(&*record)) scans_.note_said(*closure);
+    const auto* keyframe = std::get_if<KeyframeRecord>(&*record);
+    const auto kept = keyframe ? memory.state(cloud_key(keyframe->stamp)) : std::nullopt;
+    if (!kept) continue;
+    const auto message = decode_message(*kept);
+    if (const auto* received = std::get_if<ReceivedMessage>(&message))
+      if (const auto* cloud = std::get_if<CloudMessage>(&received->message)) scans_.remember(*cloud);
+  }
+}
+
 void Agent::note_kept() {
   logs_.note_kept();
+  scans_.note_kept();
   has_news_ = true;
 }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -39,6 +40,7 @@ struct AgentMemory {
   std::uint32_t life = 0;
   std::vector<std::pair<std::string, KnownLog>> logs = {};
   std::uint32_t next_life = 0;  ///< where others know more of this life than the journal; 0: none
+  std::function<std::optional<std::string>(const std::string& key)> state = {};  ///< JournalChange::state
 };
 
 struct SentMessage {
@@ -71,7 +73,7 @@ class Agent {
   void done(const ScanResult& result);
 
   /// What is to be kept before it is sent, and then that it is kept.
-  JournalChange change() const { return logs_.change(); }
+  JournalChange change() const;
   void note_kept();
 
   AgentStep step(Stamp now);
@@ -96,6 +98,7 @@ class Agent {
   void take(const std::string& peer, const CloudMessage& cloud, Stamp now);
   void take(const std::string& peer, const SolutionMessage& solution, Stamp now);
 
+  void remember_scans(const AgentMemory& memory);
   void begin_life(const std::string& peer, const LogExtent& own, Stamp now);
   void refuse(const std::string& peer, const std::string& what, std::size_t times, Stamp now);
   void ask(Stamp now);

@@ -19,9 +19,22 @@ constexpr double kShare = 0.5, kRegistration_s = 0.1;  // of the time of a core;
 }  // namespace
 
 void AgentScans::add(Stamp keyframe, StoredCloud cloud) {
+  not_kept_.push_back(keyframe);
   own_.add(keyframe, std::move(cloud));
   ++clouds_;
   ++news_;
+}
+
+void AgentScans::remember(const CloudMessage& message) {
+  const auto cloud = unpacked_from_elsewhere(message.packed);
+  if (!cloud) return;
+  own_.set_scanner(message.scanner);
+  own_.add(message.keyframe, store_.add(*cloud));
+  ++clouds_;
+}
+
+void AgentScans::note_said(const ClosureRecord& closure) {
+  said_.emplace(closure.other, closure.at.stamp, closure.stamp_other);
 }
 
 bool AgentScans::take(const std::string& peer, const CloudMessage& message) {

@@ -27,6 +27,13 @@ class AgentScans {
 
   void set_scanner(const ScannerFacts& scanner) { own_.set_scanner(scanner); }
   void add(Stamp keyframe, StoredCloud cloud);
+  /// Of those, the ones that the robot's journal may lack.
+  const std::vector<Stamp>& not_kept() const { return not_kept_; }
+  void note_kept() { not_kept_.clear(); }
+  /// What the journal had when the robot's program was started again: one of its own clouds, as cloud() gave
+  /// it, and a closure that its log says.
+  void remember(const CloudMessage& cloud);
+  void note_said(const ClosureRecord& closure);
   /// A cloud that was asked for; false: it is none.
   bool take(const std::string& peer, const CloudMessage& cloud);
   /// One of its own; nothing if there is none, or none that a message holds.
@@ -62,6 +69,7 @@ class AgentScans {
   std::map<std::string, ScansSoFar> others_;
   std::shared_ptr<const RecognisedPlaces> tried_;
   CloudStore store_;
+  std::vector<Stamp> not_kept_;
   std::map<std::pair<std::string, Stamp>, Asked> asked_;
   std::set<std::tuple<std::string, Stamp, Stamp>> said_;
   std::size_t clouds_ = 0, news_ = 0;  ///< news: of these, since the last job

@@ -19,7 +19,10 @@ class MemoryStore : public AgentStore {
 
   AgentMemory memory() const override {
     const std::uint32_t life = logs_.at(robot_).life;
-    return {life, {logs_.begin(), logs_.end()}, life + 1};
+    return {life, {logs_.begin(), logs_.end()}, life + 1, [this](const std::string& key) {
+              const auto found = state_.find(key);
+              return found == state_.end() ? std::nullopt : std::optional(found->second);
+            }};
   }
   void commit(const JournalChange& change) override {
     for (const std::string& robot : change.forgotten) logs_.erase(robot);
@@ -32,11 +35,25 @@ class MemoryStore : public AgentStore {
     }
     for (std::size_t k = 0; k < change.own.size(); ++k)
       logs_[robot_].records.emplace(change.first_own + k, change.own[k]);
+    for (const auto& [key, bytes] : change.state) state_[key] = bytes;
   }
 
  private:
   std::string robot_;
   std::map<std::string, KnownLog> logs_;
+  std::map<std::string, std::string> state_;
+};
+
+class StoreOfNothing : public AgentStore {
+ public:
+  explicit StoreOfNothing(std::uint32_t life) : life_(life) {}
+  AgentMemory memory() const override {
+    return {life_, {}, life_ + 1, [](const std::string&) { return std::nullopt; }};
+  }
+  void commit(const JournalChange&) override {}
+
+ private:
+  std::uint32_t life_;
 };
 
 /// A robot: its program, while it runs, and what outlives it.
@@ -258,6 +275,10 @@ class VirtualTeam {
 
 std::unique_ptr<AgentStore> store_in_memory(const std::string& robot, std::uint32_t life) {
   return std::make_unique<MemoryStore>(robot, life);
+}
+
+std::unique_ptr<AgentStore> store_of_nothing(std::uint32_t life) {
+  return std::make_unique<StoreOfNothing>(life);
 }
 
 KnownThen known_then(const Agent& agent, Stamp now, std::uint64_t said, const ErrorOf& error_of) {

@@ -12,7 +12,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -31,10 +30,10 @@ class AgentStore {
   virtual ~AgentStore() = default;
   virtual AgentMemory memory() const = 0;
   virtual void commit(const JournalChange& change) = 0;
-  /// As last committed; nothing where it keeps none.
-  virtual std::optional<std::string> state(std::string_view) const { return std::nullopt; }
 };
 std::unique_ptr<AgentStore> store_in_memory(const std::string& robot, std::uint32_t life);
+/// Of a robot that is not started again: it keeps nothing.
+std::unique_ptr<AgentStore> store_of_nothing(std::uint32_t life);
 
 /// An agent's state at a time.
 struct KnownThen {

@@ -59,7 +59,7 @@ Stamp stamp_of_option(const std::string& text) {
 
 /// When the mission began: as told, as the journal has it, or now.
 Stamp start_of(const AgentArguments& arguments, AgentStore& store) {
-  const auto kept = store.state(kStart);
+  const auto kept = store.memory().state(kStart);
   const Stamp start = !arguments.start.empty() ? stamp_of_option(arguments.start)
                       : kept                   ? Stamp{std::stoll(*kept)}
                                                : time_of_host();
@@ -190,7 +190,7 @@ void run_agent(const AgentArguments& arguments) {
   OutputFolder output(arguments.output, kRunFolder);
   std::unique_ptr<AgentStore> store;
   if (arguments.journal.empty())
-    store = store_in_memory(arguments.robot, new_life());
+    store = store_of_nothing(new_life());
   else
     store = std::make_unique<JournalStore>(arguments.journal, arguments.robot, new_life());
   DdsDomain domain(dds_config(arguments));

@@ -60,7 +60,7 @@ TeamRun run_in_process(const TeamArguments& arguments, const Mission& mission, c
   setup.solvers = arguments.solvers;
   const fs::path journals = folder / "journals";
   setup.store = [&](const std::string& robot) -> std::unique_ptr<AgentStore> {
-    if (!kills.contains(robot)) return store_in_memory(robot, 1);
+    if (!kills.contains(robot)) return store_of_nothing(1);
     fs::create_directories(journals);
     return std::make_unique<JournalStore>(journals / (robot + ".journal"), robot, 1);
   };

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "radioslam/io/journal/journal.hpp"
 #include "radioslam/team/virtual_team.hpp"
@@ -17,9 +16,11 @@ class JournalStore : public AgentStore {
   JournalStore(const std::filesystem::path& file, const std::string& robot, std::uint32_t life_if_new)
       : journal_(file, robot, life_if_new), next_life_(life_if_new) {}
 
-  AgentMemory memory() const override { return {journal_.life(), journal_.logs(), next_life_}; }
+  AgentMemory memory() const override {
+    return {journal_.life(), journal_.logs(), next_life_,
+            [this](const std::string& key) { return journal_.state(key); }};
+  }
   void commit(const JournalChange& change) override { journal_.commit(change); }
-  std::optional<std::string> state(std::string_view key) const override { return journal_.state(key); }
 
  private:
   Journal journal_;

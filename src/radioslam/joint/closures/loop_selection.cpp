@@ -12,6 +12,7 @@
 #include "radioslam/graph/normal_equations.hpp"
 #include "radioslam/graph/residuals.hpp"
 #include "radioslam/joint/closures/other_valleys.hpp"
+#include "radioslam/joint/segment_odometry.hpp"
 #include "radioslam/team_frame/connected_measurements.hpp"
 
 namespace radioslam {
@@ -70,6 +71,7 @@ class LoopSelector {
  public:
   LoopSelector(const JointGraph<Pose>& joint, std::vector<TeamLoop<Pose>>& loops)
       : odometry_(joint.team.graph.relative_poses),
+        is_ordinary_(ordinary_steps(joint)),
         loops_(loops),
         choice_(choice_of(joint, loops)),
         equations_(choice_.graph) {}
@@ -113,7 +115,7 @@ class LoopSelector {
     for (std::size_t k = 0; k < choice_.first_loop(); ++k)
       if (choice_.is_odometry[k])
         choice_.graph.relative_poses[k].information =
-            odometry_[k].information / squared(result_.odometry_scale);
+            odometry_[k].information / squared(scale_of_step(is_ordinary_[k], result_.odometry_scale));
     for (std::size_t k = 0; k < loops_.size(); ++k)
       choice_.loop(k).information = inverse(loops_[k].covariance) / squared(result_.loop_scale);
     set_weights(choice_);
@@ -129,7 +131,7 @@ class LoopSelector {
   bool update_scales(const Marginals<Pose>& marginals) {
     VarianceComponent odometry, of_loops;
     for (std::size_t k = 0; k < choice_.first_loop(); ++k)
-      if (choice_.is_odometry[k]) add(odometry, choice_.graph.relative_poses[k], marginals);
+      if (is_ordinary_[k]) add(odometry, choice_.graph.relative_poses[k], marginals);
     for (std::size_t k = 0; k < loops_.size(); ++k)
       if (choice_.accepted[k]) add(of_loops, choice_.loop(k), marginals);
     const double odometry_before = result_.odometry_scale, loops_before = result_.loop_scale;
@@ -171,6 +173,7 @@ class LoopSelector {
   }
 
   const std::vector<RelativePoseFactor<Pose>>& odometry_;  ///< as stated
+  std::vector<bool> is_ordinary_;                          ///< by relative pose before the loops
   std::vector<TeamLoop<Pose>>& loops_;
   LoopChoice<Pose> choice_;
   NormalEquations<Pose> equations_;

@@ -14,6 +14,7 @@
 #include "radioslam/joint/closures/own_loops.hpp"
 #include "radioslam/joint/closures/team_loops.hpp"
 #include "radioslam/joint/links/link_weights.hpp"
+#include "radioslam/joint/segment_odometry.hpp"
 
 namespace radioslam {
 namespace {
@@ -52,8 +53,11 @@ void take_out(JointGraph<Pose>& joint, std::vector<TeamLoop<Pose>>& loops) {
 
 template <class Pose>
 void scale_odometry(JointGraph<Pose>& joint, double scale) {
-  for (const std::size_t k : factors_of(joint.origins.relative_poses, FactorSource::kOdometry))
-    joint.team.graph.relative_poses[k].information /= scale * scale;
+  const std::vector<bool> is_ordinary = ordinary_steps(joint);
+  for (const std::size_t k : factors_of(joint.origins.relative_poses, FactorSource::kOdometry)) {
+    const double of_step = scale_of_step(is_ordinary[k], scale);
+    joint.team.graph.relative_poses[k].information /= of_step * of_step;
+  }
 }
 
 /// The robots' components after loops have joined those of segments.
