@@ -223,6 +223,29 @@ TEST(Agent, RemembersItsCloudsAndClosuresWhenItIsStartedAgain) {
   EXPECT_TRUE(again.change().empty());  // nothing is kept twice
 }
 
+TEST(Agent, CloudsOfMoreThanASecondsBytesPassAndWhoWaitsIsSaid) {
+  AgentParams slow;
+  slow.bytes_s = 200;
+  const auto a = agent("a", slow), b = agent("b");
+  drive(*a, 0);
+  CloudStore clouds;
+  a->add_cloud(at(0), clouds.add(wall()));
+  ASSERT_GT(a->scans().cloud(at(0))->packed.size(), 200U);
+  Air air{{a.get(), b.get()}};
+  air.run(5);
+  a->hear("b", encode("b", CloudWant{{at(0)}}), at(air.now_s));
+  const std::size_t before = air.bytes;
+  air.run(20);
+  EXPECT_GT(air.bytes - before, a->scans().cloud(at(0))->packed.size());
+  for (std::uint32_t k = 1; k < 4000; ++k) drive(*a, k);  // which come before clouds
+  air.run(2);
+  a->hear("b", encode("b", CloudWant{{at(0)}}), at(air.now_s));
+  air.run(100);
+  EXPECT_EQ(std::count_if(air.events.begin(), air.events.end(),
+                          [](const std::string& of) { return of.find("do not suffice") != of.npos; }),
+            1);
+}
+
 TEST(Agent, OneThatDoesNotSolveTakesAnothersSolution) {
   AgentParams weak;
   weak.solves = false;

@@ -64,7 +64,8 @@ TEST(AgentMessages, TruncatedOrWithMoreBytesAreRefused) {
 
 TEST(AgentMessages, ADigestOfMoreRecordsThanCanBeAskedForIsRefused) {
   const auto is_read = [](std::uint64_t records) {
-    return std::holds_alternative<ReceivedMessage>(decode_message(encode("a", Digest{{{"b", {1, records}}}})));
+    return std::holds_alternative<ReceivedMessage>(
+        decode_message(encode("a", Digest{{{"b", {1, records}}}})));
   };
   EXPECT_TRUE(is_read(std::uint64_t{1} << 40U));
   EXPECT_FALSE(is_read((std::uint64_t{1} << 40U) + 1));

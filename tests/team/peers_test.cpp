@@ -35,6 +35,22 @@ TEST(ByteBudget, NeverGivesMoreThanItsRateOverAnyTime) {
   EXPECT_GE(sent, 9500U);
 }
 
+TEST(ByteBudget, LetsALargeMessagePassAtTheSameRate) {
+  ByteBudget budget(1000);
+  std::size_t sent = 0, messages = 0;
+  budget.refill(at(0));
+  for (int k = 1; k <= 1000; ++k) {
+    budget.refill(at(0.1 * k));
+    if (!budget.has(2500)) continue;
+    budget.take(2500);
+    sent += 2500;
+    ++messages;
+    EXPECT_FALSE(budget.has(1));
+    EXPECT_LE(static_cast<double>(sent), 1000 * 0.1 * k + 2500);
+  }
+  EXPECT_GE(messages, 38U);
+}
+
 TEST(Asking, AsksTheRobotItselfFirstThenOthers) {
   Asking asking;
   const auto peers = two_who_know_c(0);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kMostRecordBytes = 8000;  // of a message
 constexpr std::size_t kMostClouds = 512;        // that a peer waits for
+constexpr double kWaiting_s = 60;               // then it is said
 constexpr double kDigest_s = 1, kOwn_s = 1, kAsk_s = 0.5;
 constexpr double kDigestPeers = 5;  // more of them are told less often
 
@@ -173,6 +174,7 @@ AgentStep Agent::step(Stamp now) {
   for (auto& [name, peer] : peers_) {
     peer.budget.refill(now);
     if (peer.is_heard(now)) send_to(name, peer, pushes, step);
+    note_waiting(name, peer, now);
   }
   if (pushes) own_sent_ = now;
   if (std::exchange(has_solution_, false)) send_solution(now, step);
@@ -273,7 +275,18 @@ void Agent::send_clouds(const std::string& name, Peer& peer, AgentStep& step) {
     const auto cloud = scans_.cloud(*peer.clouds.begin());
     if (cloud && !send(name, peer, *cloud, step)) return;
     peer.clouds.erase(peer.clouds.begin());
+    peer.clouds_wait.reset();
   }
+}
+
+/// A link that is too slow for what it is asked for.
+void Agent::note_waiting(const std::string& name, Peer& peer, Stamp now) {
+  if (peer.clouds.empty() || !peer.is_heard(now)) return peer.clouds_wait.reset();
+  if (!peer.clouds_wait) peer.clouds_wait = now;
+  if (seconds_between(*peer.clouds_wait, now) < kWaiting_s || std::exchange(peer.is_cloud_wait_said, true))
+    return;
+  events_.push_back({now, "has scans that robot " + name +
+                              " waits for: the bytes a second of this link do not suffice (--cap)"});
 }
 
 bool Agent::send(const std::string& to, Peer& peer, const AgentMessage& message, AgentStep& step) {
@@ -292,12 +305,13 @@ bool Agent::add_records(const std::string& to, Peer& peer, const std::string& ro
   while (first < end) {
     const std::size_t most = peer.budget.at_most(kMostRecordBytes), used = message.chunks.size() + kEnvelope;
     const std::size_t next_bytes = logs_.log(robot).records.at(first).size() + robot.size() + kEnvelope;
-    if (used + next_bytes > most) {
-      if (message.chunks.empty()) return false;
+    const bool fits = used + next_bytes <= most;
+    if (!fits && !message.chunks.empty()) {
       send(to, peer, std::exchange(message, {}), step);
       continue;
     }
-    auto [bytes, next] = logs_.log(robot).bytes(robot, first, end, most - used);
+    if (!fits && !peer.budget.has(used + next_bytes)) return false;
+    auto [bytes, next] = logs_.log(robot).bytes(robot, first, end, fits ? most - used : next_bytes);
     message.chunks += bytes;
     first = next;
   }

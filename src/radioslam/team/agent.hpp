@@ -104,6 +104,7 @@ class Agent {
   void ask(Stamp now);
   void tell_estimate();
   void restart_estimate();
+  void note_waiting(const std::string& name, Peer& peer, Stamp now);
   void send_clouds(const std::string& name, Peer& peer, AgentStep& step);
   void send_digest(Stamp now, AgentStep& step);
   void send_solution(Stamp now, AgentStep& step);

@@ -5,6 +5,8 @@
 // it asked for, clouds. Nothing is pushed to a peer that was not heard for kSilent_s.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -21,14 +23,18 @@ namespace radioslam {
 
 inline constexpr double kSilent_s = 5;
 
-/// Bytes that a link may send, as they come: at most so many a second, and those of one second at once.
+/// Bytes that a link may send, as they come: at most so many a second, and those of one second at once. A
+/// message of more than these goes when nothing else has been sent for a second; the link is then silent
+/// until the rate has made up for it.
 class ByteBudget {
  public:
   /// 0: no bound.
   explicit ByteBudget(double bytes_s = 0) : bytes_s_(bytes_s) {}
 
   void refill(Stamp now);
-  bool has(std::size_t bytes) const { return bytes_s_ == 0 || left_ >= static_cast<double>(bytes); }
+  bool has(std::size_t bytes) const {
+    return bytes_s_ == 0 || left_ >= std::min(static_cast<double>(bytes), bytes_s_);
+  }
   void take(std::size_t bytes) { left_ -= static_cast<double>(bytes); }
   /// Of one message now, at most so many.
   std::size_t at_most(std::size_t bytes) const;
@@ -45,6 +51,8 @@ struct Peer {
   std::uint64_t sent_own = 0;                                     ///< own records up to this number are sent
   std::map<std::string, std::vector<WantedStretch>> wanted = {};  ///< by it, by robot
   std::set<Stamp> clouds = {};                                    ///< wanted by it
+  std::optional<Stamp> clouds_wait = {};                          ///< since when none of these went
+  bool is_cloud_wait_said = false;
   ByteBudget budget{};
   std::map<std::string, std::size_t> refused = {};  ///< of what it sent, by reason
 
