@@ -21,6 +21,23 @@ double evidence_within(const TeamGraph<Pose>& team, const TeamHypothesis<Pose>& 
   return refine_alignment(at, components, params).log_evidence;
 }
 
+/// The best alignment of `before`, in its frames, and those found. `log_ratio`: how much likelier the best
+/// one found is.
+template <class Pose>
+RadioAlignment<Pose> beside(const RadioAlignment<Pose>& before, RadioAlignment<Pose> found,
+                            double log_ratio) {
+  RadioAlignment<Pose> both{before.components, {before.hypotheses.front()}};
+  both.hypotheses.front().weight = found.hypotheses.front().weight * std::exp(-std::max(0.0, log_ratio));
+  double sum = both.hypotheses.front().weight;
+  for (TeamHypothesis<Pose>& other : found.hypotheses) {
+    other.weight *= std::exp(std::min(0.0, log_ratio));
+    sum += other.weight;
+    both.hypotheses.push_back(std::move(other));
+  }
+  for (TeamHypothesis<Pose>& hypothesis : both.hypotheses) hypothesis.weight /= sum;
+  return both;
+}
+
 }  // namespace
 
 template <class Pose>
@@ -61,11 +78,12 @@ RadioAlignment<Pose> continued(const TeamGraph<Pose>& team, RadioAlignment<Pose>
   };
   auto& hypotheses = found.hypotheses;
   if (agrees(hypotheses.front())) return found;
-  const double better = evidence_within(team, hypotheses.front(), before.components, params) -
-                        evidence_within(team, kept, before.components, params);
-  if (better > params.beam.evidence_temperature * std::log(kClearlyLikelier)) return found;
+  const double log_ratio = (evidence_within(team, hypotheses.front(), before.components, params) -
+                            evidence_within(team, kept, before.components, params)) /
+                           params.beam.evidence_temperature;
+  if (log_ratio > std::log(kClearlyLikelier)) return found;
   const auto agreeing = std::find_if(hypotheses.begin(), hypotheses.end(), agrees);
-  if (agreeing == hypotheses.end()) return before;
+  if (agreeing == hypotheses.end()) return beside(before, std::move(found), log_ratio);
   std::rotate(hypotheses.begin(), agreeing, agreeing + 1);
   return found;
 }

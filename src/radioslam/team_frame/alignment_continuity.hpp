@@ -21,7 +21,8 @@ bool agree(const std::vector<Pose>& a, const std::vector<Pose>& b,
            const std::vector<double>& sigmas_m = {});
 
 /// The alignments found, with one first that agrees with the best of `before`, unless the best one found is
-/// more than 20 times as likely within the frames known before. Where none agrees, those of `before`.
+/// more than 20 times as likely within the frames known before. Where none agrees, the best of `before` comes
+/// first, in its frames, with those found as alternatives to it: each weighs what the measurements say.
 template <class Pose>
 RadioAlignment<Pose> continued(const TeamGraph<Pose>& team, RadioAlignment<Pose> found,
                                const RadioAlignment<Pose>& before, const RadioAlignmentParams& params);
