@@ -68,10 +68,10 @@ TEST_F(AlignmentContinuity, ALessLikelyOneDoesNot) {
 TEST_F(AlignmentContinuity, OneThatStaysIsNotCertainForThat) {
   RadioAlignmentParams undecided;
   undecided.beam.evidence_temperature = 1e9;
-  const auto now = continued(simulated.team, right, wrong, undecided);
+  const auto now = continued(simulated.team, wrong, right, undecided);
   ASSERT_EQ(now.hypotheses.size(), 2U);
   EXPECT_TRUE(
-      agree(now.hypotheses.front().poses, wrong.hypotheses.front().poses, simulated.team.segments, {0, 0}));
+      agree(now.hypotheses.front().poses, right.hypotheses.front().poses, simulated.team.segments, {0, 0}));
   EXPECT_NEAR(now.hypotheses[0].weight, 0.5, 1e-3);
   EXPECT_NEAR(now.hypotheses[1].weight, 0.5, 1e-3);
   EXPECT_NEAR(continued(simulated.team, wrong, right, {}).hypotheses.front().weight, 1, 1e-6);

@@ -74,7 +74,7 @@ function view_rows(map) {
   const planes = { xy: ["x", "y"], xz: ["x", "z"], yz: ["y", "z"] };
   const views = [["xy", "from above"]];
   if (report.dimension === 3) views.push(["xz", "x–z"], ["yz", "y–z"]);
-  if (webgl_is_there() && (cloud.count || report.dimension === 3)) views.push(["space", "3D"]);
+  if (has_webgl && (cloud.count || report.dimension === 3)) views.push(["space", "3D"]);
   if (views.length === 1 && !cloud.count) return [];
   const set = name => {
     if (name !== "space") state.axes = planes[name];

@@ -18,7 +18,7 @@ const far_away = 1e9;
 const slow_ms = 60, quick_ms = 20;  // per frame while the view moves: fewer points are drawn, or more
 const most_sparse = 15;             // every so manieth point; WebGL steps over at most 255 bytes
 
-const webgl_is_there = () => Boolean(element("canvas").getContext("webgl"));
+const has_webgl = Boolean(element("canvas").getContext("webgl"));  // asked once: browsers have few contexts
 
 /// Columns of a perspective camera's matrix.
 function camera_matrix(target, yaw, pitch, distance, aspect) {
