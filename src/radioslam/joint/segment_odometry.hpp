@@ -17,7 +17,7 @@ OdometryChain<Pose> odometry_chain(const JointGraph<Pose>& joint, const Trajecto
 
 /// By relative pose of the graph: whether it is a step of odometry whose stated variances are like those of
 /// most, up to a factor of 100. Others are measured in another way, as where wheels alone bridge a gap in the
-/// scans: what the ordinary ones err by says nothing of these.
+/// scans: the errors of the ordinary ones do not bear on these.
 template <class Pose>
 std::vector<bool> ordinary_steps(const JointGraph<Pose>& joint);
 

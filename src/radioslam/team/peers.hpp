@@ -24,8 +24,8 @@ namespace radioslam {
 inline constexpr double kSilent_s = 5;
 
 /// Bytes that a link may send, as they come: at most so many a second, and those of one second at once. A
-/// message of more than these goes when nothing else has been sent for a second; the link is then silent
-/// until the rate has made up for it.
+/// message of more than these is sent when nothing else has been sent for a second; nothing is sent then
+/// until the rate is kept again.
 class ByteBudget {
  public:
   /// 0: no bound.
