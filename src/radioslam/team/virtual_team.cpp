@@ -19,10 +19,12 @@ class MemoryStore : public AgentStore {
 
   AgentMemory memory() const override {
     const std::uint32_t life = logs_.at(robot_).life;
-    return {life, {logs_.begin(), logs_.end()}, life + 1, [this](const std::string& key) {
-              const auto found = state_.find(key);
-              return found == state_.end() ? std::nullopt : std::optional(found->second);
-            }};
+    return {
+        life, {logs_.begin(), logs_.end()}, life + 1, [this](const std::string& key) { return state(key); }};
+  }
+  std::optional<std::string> state(const std::string& key) const override {
+    const auto found = state_.find(key);
+    return found == state_.end() ? std::nullopt : std::optional(found->second);
   }
   void commit(const JournalChange& change) override {
     for (const std::string& robot : change.forgotten) logs_.erase(robot);
@@ -48,8 +50,9 @@ class StoreOfNothing : public AgentStore {
  public:
   explicit StoreOfNothing(std::uint32_t life) : life_(life) {}
   AgentMemory memory() const override {
-    return {life_, {}, life_ + 1, [](const std::string&) { return std::nullopt; }};
+    return {life_, {}, life_ + 1, [this](const std::string& key) { return state(key); }};
   }
+  std::optional<std::string> state(const std::string&) const override { return std::nullopt; }
   void commit(const JournalChange&) override {}
 
  private:

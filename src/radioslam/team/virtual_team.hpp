@@ -30,6 +30,8 @@ class AgentStore {
   virtual ~AgentStore() = default;
   virtual AgentMemory memory() const = 0;
   virtual void commit(const JournalChange& change) = 0;
+  /// As last committed under this key, without reading the rest.
+  virtual std::optional<std::string> state(const std::string& key) const = 0;
 };
 std::unique_ptr<AgentStore> store_in_memory(const std::string& robot, std::uint32_t life);
 /// Of a robot that is not started again: it keeps nothing.

@@ -31,7 +31,7 @@ std::optional<LogBefore> log_before(const AgentStore& store, const std::string& 
   AgentMemory memory = store.memory();
   for (auto& [name, log] : memory.logs)
     if (name == robot && log.life == memory.life && !log.records.empty())
-      return LogBefore{std::move(log), decode_recorded(memory.state(kRecorded).value_or(""))};
+      return LogBefore{std::move(log), decode_recorded(store.state(kRecorded).value_or(""))};
   return std::nullopt;
 }
 

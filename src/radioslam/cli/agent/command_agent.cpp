@@ -59,7 +59,7 @@ Stamp stamp_of_option(const std::string& text) {
 
 /// When the mission began: as told, as the journal has it, or now.
 Stamp start_of(const AgentArguments& arguments, AgentStore& store) {
-  const auto kept = store.memory().state(kStart);
+  const auto kept = store.state(kStart);
   const Stamp start = !arguments.start.empty() ? stamp_of_option(arguments.start)
                       : kept                   ? Stamp{std::stoll(*kept)}
                                                : time_of_host();

@@ -18,8 +18,9 @@ class JournalStore : public AgentStore {
 
   AgentMemory memory() const override {
     return {journal_.life(), journal_.logs(), next_life_,
-            [this](const std::string& key) { return journal_.state(key); }};
+            [this](const std::string& key) { return state(key); }};
   }
+  std::optional<std::string> state(const std::string& key) const override { return journal_.state(key); }
   void commit(const JournalChange& change) override { journal_.commit(change); }
 
  private:
